@@ -56,6 +56,7 @@ COMMANDS = (
     f"hri color learn ball --images {RECORDED}/pictures/coffee.jpg --box 50,50,60,60",
     "hri drive replay 7 --out room.png",
     "hri models",
+    "hri memory export people.json",
     "hri forget --yes",
     "test_camera",
     "python {house}/docs/samples/short/say_and_ask.py",

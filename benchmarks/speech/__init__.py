@@ -19,6 +19,7 @@ from benchmarks.speech import (
     melody,
     peers,
     phrases,
+    told_apart,
 )
 from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
@@ -36,6 +37,8 @@ def rows(
     yield from attempted("peers", lambda: peers.rows(people, hear, step, progress))
     progress("feelings in the voice")
     yield from attempted(feelings.WHAT, feelings.rows)
+    progress(told_apart.WHAT)
+    yield from attempted(told_apart.WHAT, told_apart.rows)
     progress(melody.WHAT)
     yield from attempted(melody.WHAT, melody.rows)
     progress(alignment.WHAT)

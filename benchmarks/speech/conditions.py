@@ -1,4 +1,4 @@
-"""The rooms that clips are heard in: a quiet one, among people who talk, in a kitchen."""
+"""The rooms that clips are heard in: a quiet one, among people who talk, in a kitchen, in wind."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from benchmarks.speech.babble import babble
 from benchmarks.speech.kitchen import kitchen
 from benchmarks.speech.levels import Sound, above
+from benchmarks.speech.pink import pink
 from hri.bench.speech import flite_voices
 from hri.bench.speech.flite_voices import RATE
 from hri.bench.speech.samples import Clip
@@ -34,6 +35,8 @@ CONDITIONS: Mapping[str, Noise | None] = {
     "6 dB": Noise(babble, 6.0),
     "12 dB in a kitchen": Noise(kitchen, 12.0, " kitchen"),
     "6 dB in a kitchen": Noise(kitchen, 6.0, " kitchen"),
+    "12 dB over pink noise": Noise(pink, 12.0, " pink"),
+    "6 dB over pink noise": Noise(pink, 6.0, " pink"),
 }
 
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
-from benchmarks.speech.feelings import differences, published
+from benchmarks.speech.feelings import MEASURES, PUBLISHED, differences
 from hri.core.writing import write_text
 
 INTENSITIES = (0.25, 0.5, 0.75, 1.0)
@@ -22,14 +22,20 @@ UNITS = {
 }
 """Of each measure: its title, what one of its unit is in the figure's, and the end of its axis."""
 LEFT, TOP, WIDTH, ROW, GAP = 90, 48, 150, 26, 52
-INK, FAINT, UP, DOWN = "#222", "#ddd", "#c2410c", "#1d4ed8"
+INK, FAINT = "#222", "#ddd"
+ARROWS = {
+    1: ("#c2410c", "M-5 4L0 -4L5 4"),
+    -1: ("#1d4ed8", "M-5 -4L0 4L5 -4"),
+    0: ("#666", "M-5 0L5 0"),
+}
+"""The color and the mark of a direction; a line where the sources differ."""
 
 Measured = Mapping[float, Mapping[str, Mapping[str, float]]]
 """What is heard, by intensity, emotion and measure."""
 
 
 def drawn(heard: Measured) -> str:
-    """The figure as SVG: dots for rising intensity, an arrow for the published direction."""
+    """The figure as SVG: dots for rising intensity, an arrow for each published direction."""
     emotions = list(next(iter(heard.values())))
     width = LEFT + len(UNITS) * (WIDTH + GAP)
     height = TOP + len(emotions) * ROW + 30
@@ -53,9 +59,8 @@ def _panel(left: float, measure: str, heard: Measured, emotions: list[str]) -> l
         parts.append(f'<path d="M{x:g} {TOP - 8}V{bottom:g}" stroke="{FAINT}"/>')
         parts.append(_text(x, bottom + 16, label, "middle"))
     for row, name in enumerate(emotions):
-        direction = published(name, measure)
-        color = UP if direction > 0 else DOWN
-        arrow = "M-5 4L0 -4L5 4" if direction > 0 else "M-5 -4L0 4L5 -4"
+        direction = PUBLISHED[name][MEASURES.index(measure)]
+        color, arrow = ARROWS[direction]
         place = f"translate({left + WIDTH + 14} {_y(row):g})"
         parts.append(f'<path d="{arrow}" transform="{place}" fill="none" stroke="{color}"/>')
         for intensity, found in heard.items():

@@ -26,6 +26,7 @@ from .signals import (
     Gaze as Gaze,
     HeadGesture as HeadGesture,
     HeadPose as HeadPose,
+    HeardSlot as HeardSlot,
     People as People,
     Person as Person,
     Phoneme as Phoneme,

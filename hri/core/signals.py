@@ -31,6 +31,8 @@ class HeardWord:
     start: float
     """Seconds."""
     end: float
+    confidence: float | None = None
+    """0 to 1: the chance that just this word was said; None from engines that cannot tell."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +43,25 @@ class Alternative:
     share: float
     """How likely it was said instead of the best, 0 to 1; all shares and the best's make 1. Of a
     phrase that free words of the best hold, how likely that was said as well."""
+
+
+@dataclass(frozen=True, slots=True)
+class HeardSlot:
+    """Words of a free slot, which no grammar lists, as they were heard."""
+
+    name: str
+    """Of the slot and its tag: "name" of `<name.spoken>`."""
+    text: str
+    """How it is spelled, lower case."""
+    phones: tuple[str, ...] = ()
+    """What was heard, in the set of the CMU dictionary without stress: ("SH", "AH", "V", "AO",
+    "N")."""
+    confidence: float = 1.0
+    """0 to 1: the chance that it is this text and no other."""
+    others: tuple[str, ...] = ()
+    """What else it may have been, likeliest first; each sounds otherwise."""
+    others_phones: tuple[tuple[str, ...], ...] = ()
+    """The phones of each of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +100,8 @@ class Utterance:
     """Whether it stands in the place of the one before, since the person went on speaking."""
     level_db: float | None = None
     """dB against full scale of its loudest tenth of a second; None for what was typed."""
+    slots: tuple[HeardSlot, ...] = ()
+    """The words of its free slots as they were heard; none of what was typed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,6 +207,13 @@ class Speech:
         """Seconds."""
         return len(self.samples) / self.rate
 
+    def caption(self, position: float) -> str:
+        """The sentence that is heard at a time, seconds, until the next one begins; the whole text
+        where the voice gives no times of sentences.
+        """
+        begun = [sentence.text for sentence in self.sentences if sentence.start <= position]
+        return begun[-1] if begun else self.sentences[0].text if self.sentences else self.text
+
     def heard(self, position: float) -> str:
         """The words that have been completely heard at a time, seconds.
 
@@ -198,8 +228,27 @@ class Speech:
 
 
 @dataclass(frozen=True, slots=True)
+class VoiceQuality:
+    """How a voice sounds beside pitch, pace and loudness; 0 is the plain voice."""
+
+    breath: float = 0.0
+    """0 to 1: air that is heard beside the voice."""
+    tension: float = 0.0
+    """-1 to 1: lax and soft in timbre, to pressed and sharp."""
+    tremble: float = 0.0
+    """0 to 1: pitch and loudness shake."""
+    smile: float = 0.0
+    """-1 to 1: lips drawn down and forward, to lips drawn apart."""
+    onset: float = 0.0
+    """-1 to 1: each phrase begins softly, to abruptly."""
+
+
+PLAIN_QUALITY = VoiceQuality()
+
+
+@dataclass(frozen=True, slots=True)
 class Prosody:
-    """How something is said; every number is a factor, 1 is the plain voice."""
+    """How something is said; numbers are factors, 1 is the plain voice."""
 
     rate: float = 1.0
     """Of the words a minute."""
@@ -213,6 +262,11 @@ class Prosody:
     """Another voice than the synthesizer's own, such as "en-gb+f3"; empty for its own."""
     sounds: tuple[tuple[str, tuple[str, ...]], ...] = ()
     """Words, in small letters, whose phones of the CMU dictionary are given."""
+    quality: VoiceQuality = PLAIN_QUALITY
+    """What beside the factors is heard of a feeling, by a voice that can."""
+    emphases: tuple[tuple[int, int, float], ...] = ()
+    """Characters of the text, first and last + 1, that are said with more (up to 1) or less (down
+    to -1) weight than the rest, by a voice that can."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -514,10 +568,10 @@ class Frame:
         return int(self.image.shape[0])
 
     def write_file(self, path: str | Path, quality: float = 0.8) -> None:
-        """Write it as the suffix says: .jpg, .jpeg or .png.
+        """Write it as the suffix says: .jpg, .jpeg, .png or .webp.
 
-        `quality` is 0 (small) to 1 (like the original) for a JPEG; a PNG is always exact. Raises
-        HriError when it cannot be written, ValueError for a quality out of range.
+        `quality` is 0 (small) to 1 (like the original) for a JPEG; PNG and WebP are always exact.
+        Raises HriError when it cannot be written, ValueError for a quality out of range.
         """
         from hri.core.picture_writer import write_picture  # OpenCV, only for who writes a file
 

@@ -1,8 +1,9 @@
 """Notes where data about people is stored outside the robot's own folders.
 
-A recording, a film of the camera, a sound of the microphone, a draft of a network, or a file of
-faces, objects, colors, or feelings, lies where someone wanted it. So that all of it can be found
-and forgotten, its place is noted in the state folder, a JSON object a line:
+A recording, a film of the camera, a sound of the microphone, a draft of a network, an export of the
+memory, or a file of people, faces, objects, colors, or feelings, lies where someone wanted it. So
+that all of it can be found and forgotten, its place is noted in the state folder, a JSON object a
+line:
 `{"kind": "recording", "place": "/home/ann/out"}`.
 """
 
@@ -22,7 +23,16 @@ from hri.core.reading import parse_json, read_text
 from hri.core.writing import PRIVATE, append_line, write_text
 
 Kind = Literal[
-    "recording", "faces", "feelings", "pictures", "objects", "colors", "sounds", "drafts"
+    "recording",
+    "faces",
+    "feelings",
+    "pictures",
+    "objects",
+    "colors",
+    "sounds",
+    "drafts",
+    "people",
+    "exports",
 ]
 
 MOST_BYTES = 50_000_000

@@ -279,7 +279,7 @@ class EmotionDisplay(Behavior):
         if override is None:
             self.expression.send(display.expression(shown, personality.expressiveness))
         felt = felt_now(shown)
-        self.prosody.send(replace(display.prosody(felt), voice=personality.voice))
+        self.prosody.send(replace(display.prosody(shown), voice=personality.voice))
         self.speed.send(display.speed.value(felt))
         self.arousal.send(felt[1])
         self.gaze.send(display.eyes(felt))
@@ -310,6 +310,11 @@ class EmotionDisplay(Behavior):
     def act_all(self, values: Mapping[str, float] | Sequence[float], duration: float) -> None:
         """Show these and no other emotions for some seconds. Raises HriError."""
         self.act(whole_vector(values), duration)
+
+    @property
+    def shown(self) -> EmotionState:
+        """What others get to see under its display rules."""
+        return self._state
 
     @property
     def motion(self) -> ExpressiveMotion | None:

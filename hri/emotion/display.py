@@ -17,6 +17,7 @@ from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import EmotionState, Expression, Gaze, Prosody
 from hri.core.toml import Table, load_toml
+from hri.emotion.emotion_voice import EmotionVoice, blended, read_voice
 from hri.emotion.emotions import EMOTIONS, INDEX, NAMES, emotions_in
 from hri.emotion.expressive_motion import ExpressiveMotion, read_motion
 from hri.emotion.label import CALM, LEAD, MOODS, STANDS_OUT, known_as
@@ -86,7 +87,11 @@ class Rule:
         """The value for pleasure, arousal and dominance, each -1 to 1."""
         pleasure, arousal, dominance = felt
         moved = self.pleasure * pleasure + self.arousal * arousal + self.dominance * dominance
-        return min(max(self.rest + float(moved), self.minimum), self.maximum)
+        return self.within(self.rest + float(moved))
+
+    def within(self, value: float) -> float:
+        """The nearest value within the limits."""
+        return min(max(value, self.minimum), self.maximum)
 
 
 STEADY = Rule(0.0, 0.0, 0.0, 1.0, 1.0)
@@ -121,6 +126,8 @@ class Display:
     """Display rules by the name of the set and the emotion."""
     motions: Mapping[str, ExpressiveMotion]
     """What the base does as an emotion begins to show."""
+    voices: Mapping[str, EmotionVoice]
+    """What the voice does for an emotion, beside pleasure, arousal and dominance."""
 
     def shown(self, state: EmotionState, rules: str = HONEST) -> EmotionState:
         """What others get to see of a state under a set of display rules.
@@ -151,13 +158,15 @@ class Display:
         is_shown = motion is not None and state.intensity * expressiveness >= motion.above
         return motion if is_shown else None
 
-    def prosody(self, felt: Felt) -> Prosody:
-        """The voice for pleasure, arousal and dominance, each -1 to 1."""
+    def prosody(self, state: EmotionState) -> Prosody:
+        """The voice for a state."""
+        felt, voice = felt_now(state), blended(self.voices, state.emotions)
         return Prosody(
-            rate=self.rate.value(felt),
-            pitch=self.pitch.value(felt),
-            volume=self.volume.value(felt),
-            range=self.range.value(felt),
+            rate=self.rate.within(self.rate.value(felt) * voice.rate),
+            pitch=self.pitch.within(self.pitch.value(felt) * voice.pitch),
+            volume=self.volume.within(self.volume.value(felt) * voice.volume),
+            range=self.range.within(self.range.value(felt) * voice.range),
+            quality=voice.quality,
         )
 
     def eyes(self, felt: Felt) -> Gaze:
@@ -225,6 +234,7 @@ def load_display(path: Path | None = None) -> Display:
     table.number("schema", 1, minimum=1, maximum=1)
     looks = table.table("label")
     voice = table.table("voice")
+    voices = voice.table("of", optional=True)
     drive = table.table("drive")
     eyes = table.table("eyes", optional=True)
     motions = table.table("motion", optional=True)
@@ -238,8 +248,9 @@ def load_display(path: Path | None = None) -> Display:
         gaze=_height(eyes.table("height")) if "height" in eyes else STRAIGHT,
         rules={name: _rules(below) for name, below in table.tables("rules")},
         motions={name: read_motion(motions.table(name)) for name in emotions_in(motions)},
+        voices={name: read_voice(voices.table(name)) for name in emotions_in(voices)},
     )
-    for part in (voice, drive, eyes, motions, table):
+    for part in (voice, voices, drive, eyes, motions, table):
         part.finish()
     return display
 

@@ -12,6 +12,7 @@ from hri.behavior.behavior import Context
 from hri.core.clock import Clock, Worker
 from hri.core.errors import HriError
 from hri.core.stored_data_index import note
+from hri.core.unusable_file import put_aside
 from hri.core.writing import Mark, mark_of
 from hri.emotion.affect import Affect, Imprint
 from hri.emotion.dynamics import Dynamics
@@ -20,7 +21,6 @@ from hri.emotion.persistence import (
     Memory,
     keep,
     memory_file,
-    put_aside,
     recall,
     spare_real_time,
     switched_off,

@@ -7,8 +7,6 @@ whole or one person at a time. A file that cannot be used is put aside, never ov
 
 from __future__ import annotations
 
-import errno
-import glob
 import json
 import os
 from collections.abc import Mapping
@@ -20,8 +18,9 @@ from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.core.ownership import require_of_user
 from hri.core.paths import exists
-from hri.core.privacy import close_to_others, folder_for, is_named, is_same_name
+from hri.core.privacy import folder_for, is_named, is_same_name
 from hri.core.reading import parse_json, read_text
+from hri.core.unusable_file import set_aside
 from hri.core.writing import PRIVATE, Mark, delete, leftovers, mark_of, write_text
 from hri.emotion.affect import Imprint, renamed, shifted
 from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
@@ -146,28 +145,12 @@ def spare_real_time(path: Path) -> None:
         raise HriError(f"{what} leaves them as they are - run without --fast to add to them")
 
 
-def put_aside(path: Path) -> Path:
-    """Give a file that cannot be used another name; that name.
-
-    Raises OSError, also if it is not a file: a folder named by mistake stays in place.
-    """
-    if not path.is_file() and path.exists():
-        raise FileNotFoundError(errno.ENOENT, "it is not a file", str(path))
-    number = 1
-    while os.path.lexists(aside := path.with_name(f"{path.stem}.unusable-{number}{path.suffix}")):
-        number += 1
-    path.rename(aside)
-    close_to_others(aside)
-    return aside
-
-
 def traces(path: Path) -> list[Path]:
     """The file, those that were put aside, and what killed writers left, as far as there are any.
 
     Among them what the writers of earlier versions left.
     """
-    aside = sorted(path.parent.glob(f"{glob.escape(path.stem)}.unusable-*{path.suffix}"))
-    found = [path, *aside, path.with_name(f"{path.name}.new"), *leftovers(path)]
+    found = [path, *set_aside(path), path.with_name(f"{path.name}.new"), *leftovers(path)]
     return [file for file in found if os.path.lexists(file)]
 
 

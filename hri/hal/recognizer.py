@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from hri.core.signals import Alternative, HeardWord, Samples
+from hri.core.signals import Alternative, HeardSlot, HeardWord, Samples
 from hri.hal.resource import Resource
 
 if TYPE_CHECKING:
     from hri.hal.word_graph import WordGraph
 
-__all__ = ["Alternative", "Grammar", "HeardWord", "Hypothesis", "Recognizer", "Segment"]
+__all__ = [
+    "Alternative",
+    "Grammar",
+    "HeardSlot",
+    "HeardWord",
+    "Hypothesis",
+    "Recognizer",
+    "Segment",
+]
 
 
 class Grammar(Protocol):
@@ -77,7 +85,8 @@ class Hypothesis:
     """What an engine made of a segment, before our own parser has judged it."""
 
     text: str
-    """Lower case words; empty when the engine found none."""
+    """Lower case words, those of a free slot as they were typed; empty when the engine found
+    none."""
     confidence: float
     """0 to 1: the chance that a sentence of the grammar, this one or one that sounds like it, was
     said; 0.5 is the calibrated point of acceptance."""
@@ -90,6 +99,8 @@ class Hypothesis:
     empty else, and from engines that cannot tell."""
     paraphrase: str = ""
     """What was said, where that means `text` in other words; empty else."""
+    slots: tuple[HeardSlot, ...] = ()
+    """Its free slots; the words of each stand in `text`, too."""
 
 
 class Recognizer(Resource):
@@ -105,6 +116,14 @@ class Recognizer(Resource):
         Called again, the new grammar takes the place of the old one, which stays in force when the
         new one is refused. Raises NotAvailable without a model, HriError for a grammar that the
         engine cannot take.
+        """
+
+    def know(self, slot: str, sounds: Mapping[str, tuple[str, ...]]) -> None:
+        """Told what people said in a free slot before, each text with its phones: it is likelier
+        there than what is listed. It takes the place of what was told before of the slot.
+
+        Phones are those of the CMU dictionary, without stress. Cheap, called in the loop; an engine
+        without free slots need not mind.
         """
 
     @abstractmethod

@@ -17,6 +17,8 @@ class Screen(Resource):
     height: int = 480
     is_seen: ClassVar[bool] = True
     """Whether anyone, or a recording, may look; otherwise nothing needs to be drawn."""
+    is_one_bit: bool = False
+    """Whether it shows what is lighter than half as lit, and the rest as dark."""
 
     def _take_size(self) -> None:
         """Width and height as the configuration has them. Raises AuthoringError."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from hri.core.signals import HeardWord, Rejection, Utterance
@@ -13,6 +14,7 @@ from hri.speech.grammar.doc_comments import ANY_COMMAND
 from hri.speech.grammar.follow_ups import out_of_place, resolved
 from hri.speech.grammar.matching import Parse, departure, meanings, parse
 from hri.speech.grammar.words import ANY, listed
+from hri.speech.slot_confidence import REST, slot_confidences
 from hri.speech.turn import Turn
 
 STRICTNESS = 0.5
@@ -78,6 +80,9 @@ def judge(
         rival = max(doubts, key=lambda one: one.share)
         choices = _choices(grammar, found, rival.text)
         reason, detail = "low confidence", _as_likely(listed(rival.text))
+    weak = _weak(found, hypothesis, others, strictness)
+    if found is not None and weak and not reason:
+        reason, detail = "low confidence", _unheard(found, weak)
     if reason == "not in grammar":
         detail = _departure(grammar, hypothesis.text)
     if reason in UNCLEAR:
@@ -86,6 +91,7 @@ def judge(
         reason = "robot speaking"
     if reason or found is None:
         doubted = likely if reason == "low confidence" else ()
+        sure = {name: value for name, value in agreed(doubted).items() if name not in weak}
         return Rejection(
             reason,
             listed(hypothesis.text),
@@ -93,8 +99,8 @@ def judge(
             start,
             end,
             detail,
-            sure=agreed(doubted),
-            unsure=disputed(doubted),
+            sure=sure,
+            unsure=_unsure(doubted, weak),
             choices=choices if doubted else (),
             begun=listed(hypothesis.begun),
             level_db=segment.level_db,
@@ -113,13 +119,45 @@ def judge(
         follow_up="" if found.tree.rule == found.rule else found.tree.rule,
         begun=listed(hypothesis.begun),
         level_db=segment.level_db,
+        slots=hypothesis.slots,
     )
+
+
+def _weak(
+    found: Parse | None,
+    hypothesis: Hypothesis,
+    others: Sequence[tuple[Alternative, Parse | None]],
+    strictness: float,
+) -> tuple[str, ...]:
+    """The tags whose values are not sure; REST for what gives none of them."""
+    if found is None:
+        return ()
+    rivals = [(meaning, other.share) for other, meaning in others]
+    sure = slot_confidences(found, hypothesis.words, rivals)
+    return tuple(name for name, confidence in sure.items() if confidence < strictness)
+
+
+def _unheard(found: Parse, weak: Sequence[str]) -> str:
+    """Which words are not sure, for people."""
+    words = enumerate(found.text.split())
+    unsure = [word for place, word in words if found.tag_of(place) in weak]
+    return f'unsure of "{listed(" ".join(unsure))}"' if unsure else "something may be missing"
+
+
+def _unsure(likely: Sequence[Parse], weak: Sequence[str]) -> tuple[str, ...]:
+    """The names of the tags that are to be asked for: those that likely sentences of one rule do
+    not agree on, and those that are weak.
+    """
+    if not likely or len({one.rule for one in likely}) > 1:
+        return ()
+    weak_tags = [name for name in weak if name != REST]
+    return tuple(dict.fromkeys((*disputed(likely), *weak_tags)))
 
 
 def _times(segment: Segment, hypothesis: Hypothesis) -> tuple[tuple[HeardWord, ...], float, float]:
     """The words by the clock, and when they begin and end."""
     words = tuple(
-        HeardWord(word.text, segment.start + word.start, segment.start + word.end)
+        replace(word, start=segment.start + word.start, end=segment.start + word.end)
         for word in hypothesis.words
     )
     if not words:
@@ -129,8 +167,8 @@ def _times(segment: Segment, hypothesis: Hypothesis) -> tuple[tuple[HeardWord, .
 
 def _command(grammar: Grammar, found: Parse) -> str:
     """The words of a sentence without those that are said around it."""
-    aside = set(found.free)
-    marks = {"aside", "name"} if found.free else {"aside"}
+    aside = set(found.around)
+    marks = {"aside", "name"} if aside else {"aside"}
     for _, tree in found.tree.walk():
         if grammar.rules[tree.rule].marks & marks:
             aside.update(range(tree.start, tree.end))
@@ -146,7 +184,7 @@ def _as_specific(
         return
     answers = grammar.marked("answer")
     is_answer = turn.is_question_open and found.rule in answers
-    for other in meanings(grammar, found.text, answers if is_answer else rules):
+    for other in meanings(grammar, found.as_typed, answers if is_answer else rules):
         if not resolved(grammar, other, turn.last).means_the_same(found):
             yield Alternative(_command(grammar, other), 1.0)
 
@@ -264,7 +302,7 @@ def _reason(
 
 
 def _is_among_others(grammar: Grammar, found: Parse) -> bool:
-    return bool(found.free) and found.rule in grammar.marked("anywhere")
+    return bool(found.around) and found.rule in grammar.marked("anywhere")
 
 
 def _is_named(grammar: Grammar, found: Parse) -> bool:

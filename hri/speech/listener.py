@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from hri.core import paths
 from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.origin import caused_by, origin
-from hri.core.signals import Rejection, Speech, Utterance
+from hri.core.signals import HeardSlot, Rejection, Speech, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
@@ -62,10 +62,10 @@ class Listener(Behavior):
     """Hears what the grammar allows: sound in, utterances out.
 
     Raises `speech.heard` (text, rule, tags, confidence, start, end, latency, command, may_go_on,
-    continues, follow_up), `speech.rejected` (reason, detail, text, confidence, begun, is_typed,
-    is_addressed, is_looked_at, level_db), `speech.partial` (text) while someone speaks,
-    `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the robot's own
-    voice, and `grammar.changed` (file) or `grammar.refused` (file, error).
+    continues, follow_up, and with free slots spoken), `speech.rejected` (reason, detail, text,
+    confidence, begun, is_typed, is_addressed, is_looked_at, level_db), `speech.partial` (text)
+    while someone speaks, `speech.interrupted` (text, rule) when a rule marked @interrupts is heard
+    over the robot's own voice, and `grammar.changed` (file) or `grammar.refused` (file, error).
     When the person begins to speak again soon after something was heard, `speech.continued` (text)
     asks to wait with acting on it; then another `speech.heard` takes its place, or
     `speech.confirmed` (text) lets it count. Loads its models and grammars while the rest already
@@ -211,6 +211,14 @@ class Listener(Behavior):
         if name != self.robot_name:
             self.set_parameter("robot_name", name)
             self._grammars.retake()
+
+    def know(self, slot: str, sounds: Mapping[str, tuple[str, ...]]) -> None:
+        """Let the free slot of a name know what people said there before, `{text: phones}`, so that
+        it is heard again; instead of what it knew before, so nothing makes it forget.
+
+        Phones are those of `HeardSlot.phones`. They are kept in memory alone.
+        """
+        self._recognizer.know(slot, sounds)
 
     def is_in_force(self, layer: Layer) -> bool:
         """Whether a grammar is the one that is listened for."""
@@ -550,6 +558,7 @@ class Listener(Behavior):
             may_go_on=result.may_go_on,
             continues=result.continues,
             follow_up=result.follow_up,
+            **({"spoken": _spoken(result.slots)} if result.slots else {}),
         )
 
     def stop(self) -> None:
@@ -557,6 +566,14 @@ class Listener(Behavior):
         self._early_worker.close()
         self._worker.close()
         self._grammars.close()
+
+
+def _spoken(slots: Iterable[HeardSlot]) -> dict[str, dict[str, object]]:
+    """How the words of free slots were heard, by the names of the slots."""
+    return {
+        slot.name: {"text": slot.text, "phones": list(slot.phones), "others": list(slot.others)}
+        for slot in slots
+    }
 
 
 def _rule_of(heard: Heard) -> str:

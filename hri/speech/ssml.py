@@ -9,9 +9,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
+from itertools import count, groupby
 from pathlib import Path
 from typing import TypeVar
 
@@ -21,11 +22,13 @@ from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.core.signals import Phoneme, Prosody, Samples, Span, Speech
 from hri.core.xml import Element, parse_xml
 from hri.hal.drivers.resampling import resample
-from hri.hal.synthesizer import Synthesizer
+from hri.hal.synthesizer import Skill, Synthesizer
 from hri.speech.notation import number_words as say
 from hri.speech.notation.abbreviations import MONTHS
 from hri.speech.pronunciation.alphabets import from_arpabet, from_ipa, from_x_sampa
 from hri.speech.pronunciation.phones import Phones
+from hri.speech.vocalizations.in_text import SoundMark, parted
+from hri.speech.vocalizations.vocalization import sound_named
 
 SOURCE = Path("ssml")
 """Where mistakes are, for people."""
@@ -35,6 +38,8 @@ LONGEST_BREAK = 10.0
 """Seconds."""
 MOST_SILENCE = 300.0
 """Seconds of all breaks together."""
+MOST_SOUNDS = 100
+"""Sounds that are not words, of a whole document: some minutes."""
 MOST_SAID = 5000
 """Characters that are said, and sounds of phonemes, of a whole document."""
 
@@ -44,6 +49,8 @@ GROWTH = 1.25
 """A document in the making is handed over each time it is longer by this factor: a speaker
 converts all of it each time."""
 ENDS = tuple(".!?\N{HORIZONTAL ELLIPSIS}:;,")
+AFTER_SOUND = 0.12
+"""Seconds of a pause after a sound that is not a word."""
 JOINT = 0.02
 """Seconds of a pause that are left within a sentence."""
 BREAKS = {
@@ -62,6 +69,8 @@ EMPHASES = {
     "none": Prosody(),
     "reduced": Prosody(rate=1.08, volume=0.8, range=0.7),
 }
+WEIGHTS = {"strong": 1.0, "moderate": 0.6, "none": 0.0, "reduced": -0.6}
+"""Of a voice that can lay weight on a word within a sentence; others say it as EMPHASES has it."""
 LIMITS = {"rate": (0.5, 2.0), "pitch": (0.5, 2.0), "range": (0.0, 3.0), "volume": (0.0, 2.0)}
 """Of the factors of all elements around a text together."""
 VOICE_ATTRIBUTES = (
@@ -101,6 +110,10 @@ class Passage:
 
     text: str
     prosody: Prosody
+    weight: float = 0.0
+    """Of an emphasis: -1 (less) to 1 (more than the words around it)."""
+    around: Prosody | None = None
+    """How those are said, where it has a weight."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,18 +130,41 @@ class Mark:
     name: str
 
 
-Piece = Passage | Break | Mark
+Piece = Passage | Break | Mark | SoundMark
 Placed = tuple[Element, Piece]
 """A piece, and the element that says it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ssml:
-    """A text with markup, checked: `Ssml.parse("<speak>Hello.</speak>")`."""
+    """A text with markup, checked: `Ssml.parse("<speak>Hello.</speak>")`.
+
+    In its words, and in a text without markup (`of_text`), "[giggle]" makes a sound.
+    """
 
     text: str
     """The words that are said."""
     pieces: tuple[Piece, ...]
+
+    @classmethod
+    def of_text(cls, text: str) -> Ssml:
+        """A text without markup, in which sounds such as "[giggle]" are made.
+
+        What is longer than MOST_SAID, and more than MOST_SOUNDS, is left out.
+        """
+        marks = count(1)
+        pieces = (
+            Passage(part, Prosody()) if isinstance(part, str) else part
+            for part in parted(text[:MOST_SAID])
+            if isinstance(part, str) or next(marks) <= MOST_SOUNDS
+        )
+        return cls(text, tuple(pieces))
+
+    def without_sounds(self) -> Ssml:
+        """The words alone, which may be none."""
+        pieces = [piece for piece in self.pieces if not isinstance(piece, SoundMark)]
+        texts = [piece.text for piece in pieces if isinstance(piece, Passage)]
+        return Ssml(reduce(_written_after, texts) if texts else "", tuple(pieces))
 
     @classmethod
     def parse(cls, source: str) -> Ssml:
@@ -141,7 +177,7 @@ class Ssml:
         if root.tag != "speak":
             raise root.error(f"<{root.tag}> is not a text to speak", "write <speak>...</speak>")
         pieces = tuple(_joined(_bounded(_pieces(root, Prosody()))))
-        texts = [piece.text for piece in pieces if isinstance(piece, Passage)]
+        texts = [piece.text for piece in pieces if isinstance(piece, Passage | SoundMark)]
         if not texts:
             raise root.error("it says nothing", "put words between <speak> and </speak>")
         return cls(reduce(_written_after, texts), pieces)
@@ -158,7 +194,13 @@ def combined(one: Prosody, other: Prosody) -> Prosody:
         name: min(max(getattr(one, name) * getattr(other, name), low), high)
         for name, (low, high) in LIMITS.items()
     }
-    return Prosody(**factors, voice=other.voice or one.voice, sounds=(*one.sounds, *other.sounds))
+    return Prosody(
+        **factors,
+        voice=other.voice or one.voice,
+        sounds=(*one.sounds, *other.sounds),
+        quality=one.quality,
+        emphases=other.emphases,
+    )
 
 
 def spoken(
@@ -175,15 +217,20 @@ def spoken(
     """
     track = _Track(document.text)
     position, handed_over = 0, 0.0
-    for piece in document.pieces:
+    pieces = document.pieces
+    for piece in _flowing_together(pieces) if Skill.EMPHASIS in voice.skills else pieces:
         if isinstance(piece, Mark):
             track.mark(piece.name)
         elif isinstance(piece, Break):
             track.pause(piece.seconds)
         elif is_wanted():
             position = document.text.index(piece.text, position)
-            said = voice.stream(piece.text, combined(prosody, piece.prosody), _ignore, is_wanted)
-            track.append(_flowing(said), position)
+            if isinstance(piece, SoundMark):
+                said = _sounded(piece, voice, prosody)
+            else:
+                way = combined(prosody, piece.prosody)
+                said = _flowing(voice.stream(piece.text, way, _ignore, is_wanted))
+            track.append(said, position)
             position += len(piece.text)
             if track.duration >= GROWTH * handed_over:
                 handed_over = track.duration
@@ -191,6 +238,42 @@ def spoken(
     whole = track.speech()
     take(whole)
     return whole
+
+
+def _sounded(mark: SoundMark, voice: Synthesizer, prosody: Prosody) -> Speech:
+    """A sound that is not a word, in the pitch and loudness of a prosody, and a short pause."""
+    tract = voice.tract(prosody.voice)
+    higher = replace(tract, pitch_hz=tract.pitch_hz * prosody.pitch)
+    speech = sound_named(mark.name).speech(higher, mark.strength, mark.length)
+    louder = np.clip(speech.samples * prosody.volume, -32768, 32767).astype(np.int16)
+    return replace(speech, samples=np.pad(louder, (0, round(AFTER_SOUND * speech.rate))))
+
+
+def _flowing_together(pieces: Iterable[Piece]) -> Iterator[Piece]:
+    """Passages that differ in their emphasis alone become one, with weights within it."""
+    for way, alike in groupby(pieces, _way_around):
+        if way is None:
+            yield from alike
+        else:
+            yield _weighed([piece for piece in alike if isinstance(piece, Passage)], way)
+
+
+def _way_around(piece: Piece) -> Prosody | None:
+    """How the words around a passage are said; None for a piece that is not one."""
+    if not isinstance(piece, Passage):
+        return None
+    return replace(piece.around or piece.prosody, sounds=())
+
+
+def _weighed(passages: Sequence[Passage], way: Prosody) -> Passage:
+    """Passages as one, which is said in a way, with weight on some of its characters."""
+    text, spans = "", []
+    for passage in passages:
+        text = _written_after(text, passage.text) if text else passage.text
+        if passage.weight:
+            spans.append((len(text) - len(passage.text), len(text), passage.weight))
+    sounds = tuple(sound for passage in passages for sound in passage.prosody.sounds)
+    return Passage(text, replace(way, sounds=sounds, emphases=tuple(spans)))
 
 
 def _ignore(speech: Speech) -> None:
@@ -287,8 +370,8 @@ def _pieces(element: Element, prosody: Prosody) -> Iterator[Placed]:
     """What an element says, in order."""
     for part in element.content():
         if isinstance(part, str):
-            if words := " ".join(part.split()):
-                yield element, Passage(words, prosody)
+            for piece in parted(" ".join(part.split())):
+                yield element, Passage(piece, prosody) if isinstance(piece, str) else piece
         elif part.tag not in _ELEMENTS:
             what = f"<{part.tag}> is not a part of SSML that is understood"
             raise part.error(what, did_you_mean(part.tag, _ELEMENTS))
@@ -298,12 +381,17 @@ def _pieces(element: Element, prosody: Prosody) -> Iterator[Placed]:
 
 def _bounded(pieces: Iterator[Placed]) -> Iterator[Piece]:
     """The pieces alone. Raises AuthoringError at the one that makes the document too long."""
-    silence, said = 0.0, 0
+    silence, said, sounds = 0.0, 0, 0
     for element, piece in pieces:
         if isinstance(piece, Break):
             silence += piece.seconds
             if silence > MOST_SILENCE:
                 what = f"the breaks take more than {MOST_SILENCE:g} s together"
+                raise element.error(what, "say it in parts")
+        elif isinstance(piece, SoundMark):
+            sounds += 1
+            if sounds > MOST_SOUNDS:
+                what = f"it makes more than {MOST_SOUNDS} sounds"
                 raise element.error(what, "say it in parts")
         elif isinstance(piece, Passage):
             said += len(piece.text) + sum(len(phones) for _, phones in piece.prosody.sounds)
@@ -362,7 +450,13 @@ def _break(element: Element, prosody: Prosody) -> Iterator[Placed]:
 
 def _emphasis(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check_attributes("level")
-    yield from _pieces(element, combined(prosody, _named(element, "level", EMPHASES, "moderate")))
+    weight = _named(element, "level", WEIGHTS, "moderate")
+    change = _named(element, "level", EMPHASES, "moderate")
+    for below, piece in _pieces(element, prosody):
+        if isinstance(piece, Passage):
+            way = combined(piece.prosody, change)
+            piece = Passage(piece.text, way, weight, piece.around or piece.prosody)
+        yield below, piece
 
 
 def _prosody(element: Element, prosody: Prosody) -> Iterator[Placed]:

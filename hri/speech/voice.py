@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from pathlib import Path
@@ -17,11 +17,13 @@ from hri.behavior.ports import Input, Output, Param
 from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.origin import caused_by, origin
-from hri.core.signals import Prosody, Speech
+from hri.core.signals import Event, Prosody, Speech
 from hri.hal.drivers.wav_file import load_sound
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.ssml import Ssml, spoken
+from hri.speech.vocalizations.in_text import has_sounds
+from hri.speech.vocalizations.vocalization import load_sounds
 
 INTERRUPTED = "speech.interrupted"
 """The event at which it falls silent: someone spoke up while it spoke."""
@@ -31,9 +33,15 @@ MOST_QUEUED = 100
 """Things to say; when there are more, the last of those that matter least is dropped."""
 
 
+MOST_PRONOUNCED = 1000
+"""Words that are said by given phones."""
+
+
 class Priority(IntEnum):
     """What comes first when there are several things to say."""
 
+    IDLE = -1
+    """Cut by all that is to be said."""
     NORMAL = 0
     URGENT = 1
     """Before all that waits."""
@@ -87,7 +95,8 @@ class Voice(Behavior):
 
     Raises `speech.said` (text) when a sound starts and `speech.finished` (text, cut, heard) when it
     ends, `heard` being the words that were said to their end; `speech.marked` (name, text) when it
-    reaches a mark of its markup. The sound starts as soon as the
+    reaches a mark of its markup. "[giggle]" in a text makes a sound that is not a word, and so does
+    a gesture of the face that has one, while nothing is said. The sound starts as soon as the
     first of it is made, and before the next tick.
     """
 
@@ -104,12 +113,20 @@ class Voice(Behavior):
     speaker_id = Param("speaker", "resource that plays it")
     latency_s = Param(0.05, "time that making the sound takes on a fake clock", minimum=0.0)
 
+    makes_sounds = True
+    """Whether it makes sounds that are not words; else they are left out of what it says."""
     quiet_until = -math.inf
     """Seconds of the clock until which it was asked to be quiet; for whoever speaks unasked."""
+
+    def check(self) -> None:
+        load_sounds()
 
     def start(self, context: Context) -> None:
         self._events = context.events
         self._interruption = self._events.subscribe(INTERRUPTED, lambda event: self.hush())
+        self._gestures = self._events.subscribe("gesture.started", self._note_gesture)
+        self._gesture = ""
+        """The gesture that the face makes since the last tick."""
         self._clock = context.clock
         self._synthesizer = context.resources.obtain(self.voice_id, Synthesizer)
         self._speaker = context.resources.obtain(self.speaker_id, Speaker)
@@ -117,6 +134,7 @@ class Voice(Behavior):
         self._made: deque[tuple[Saying, Speech]] = deque()
         self._failure: Exception | None = None
         self._prosody = Prosody()
+        self._pronounced: dict[str, tuple[str, ...]] = {}
         self._queue: list[Saying] = []
         self._making: Saying | None = None
         self._playing: _Playing | None = None
@@ -131,6 +149,10 @@ class Voice(Behavior):
 
         `prosody` is how this one is said, and by which voice; None: as the input says.
         """
+        if isinstance(text, str) and has_sounds(text):
+            text = Ssml.of_text(text)
+        if isinstance(text, Ssml) and not self.makes_sounds:
+            text = text.without_sounds()
         markup = text if isinstance(text, Ssml) else None
         text = text.text if isinstance(text, Ssml) else text
         saying = Saying(text, priority, prosody, markup)
@@ -138,6 +160,19 @@ class Voice(Behavior):
             saying.is_done = True
             return saying
         return self._queued(saying)
+
+    def pronounce(self, word: str, phones: Sequence[str]) -> None:
+        """Say a word by phones of the CMU dictionary from now on, as it was heard; by none, as it
+        is written. Phones of markup go before. Nothing is kept when the program ends.
+
+        Several words are said as they are written. Of MOST_PRONOUNCED words the oldest is dropped.
+        """
+        key = word.casefold()
+        self._pronounced.pop(key, None)
+        if phones and len(word.split()) == 1:
+            self._pronounced[key] = tuple(phones)
+            if len(self._pronounced) > MOST_PRONOUNCED:
+                del self._pronounced[next(iter(self._pronounced))]
 
     def play(
         self, path: Path | str, text: str = "", priority: Priority = Priority.NORMAL
@@ -156,7 +191,7 @@ class Voice(Behavior):
         if len(self._queue) > MOST_QUEUED:
             self._queue.pop().drop()
         current = self._current()
-        if priority == Priority.ALARM and current is not None and current.priority < priority:
+        if current is not None and current.priority < priority and _gives_way(current, priority):
             self.cancel(current)
         self._make_next()
         return saying
@@ -194,6 +229,7 @@ class Voice(Behavior):
         self._prosody = self.prosody.value or Prosody()
         self._follow(now)
         self._take_whole()
+        self._sound_gesture(now)
         self._make_next()
         playing = self._playing
         if playing is not None:
@@ -203,6 +239,18 @@ class Voice(Behavior):
             self._tell_word(playing)
             self._tell_marks(playing)
         self.is_speaking.send(playing is not None)
+
+    def _note_gesture(self, event: Event) -> None:
+        self._gesture = str(event.properties.get("name", ""))
+
+    def _sound_gesture(self, now: float) -> None:
+        """Make the sound of a gesture, where nothing is said with it."""
+        gesture, self._gesture = self._gesture, ""
+        if gesture and self.makes_sounds and self.is_idle and now >= self.quiet_until:
+            for name, sound in load_sounds().items():
+                if sound.gesture == gesture:
+                    self.say(f"[{name}]", Priority.IDLE)
+                    return
 
     def _current(self) -> Saying | None:
         """The saying that is playing, else the one being made."""
@@ -215,6 +263,9 @@ class Voice(Behavior):
         saying = self._making = self._queue.pop(0)
         prosody = saying.prosody or self.prosody.value or self._prosody
         prosody = prosody if prosody.voice else replace(prosody, voice=self.voice)
+        if self._pronounced:
+            sounds = (*self._pronounced.items(), *prosody.sounds)
+            prosody = replace(prosody, sounds=sounds)
         take = self._taker(saying)
 
         def is_wanted() -> bool:
@@ -326,8 +377,14 @@ class Voice(Behavior):
 
     def stop(self) -> None:
         self._interruption.cancel()
+        self._gestures.cancel()
         self.hush()
         self._worker.close()
+
+
+def _gives_way(current: Saying, priority: Priority) -> bool:
+    """Whether it is cut by something that matters more, instead of being waited for."""
+    return priority == Priority.ALARM or current.priority == Priority.IDLE
 
 
 def _loaded(saying: Saying, path: Path) -> Speech:

@@ -487,3 +487,15 @@ def test_display_rules_that_are_in_use_cannot_be_saved_away(own_files: Path) -> 
     display.stop()
     with pytest.raises(HriError, match='no display rules "wooden"'):
         EmotionDisplay(rules="wooden").check()
+
+
+def test_what_is_shown_is_what_the_display_rules_leave() -> None:
+    feeling = Feeling()
+    display = EmotionDisplay(rules="polite")
+    state = OutputPort[EmotionState]()
+    display.state.sources.append(state)
+    display.start(feeling.context)
+    assert display.shown.label == "calm"
+    state.value = EmotionState("disappointment", 0.8, 0.0, 0.0, 0.0, {"disappointment": 0.8})
+    display.compute(0.1, 0.1)
+    assert display.shown.label == "joy"

@@ -1,5 +1,5 @@
 import csv
-from dataclasses import replace
+from dataclasses import astuple, replace
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core import paths
-from hri.core.errors import HriError
+from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import EmotionState, Expression, Prosody
 from hri.core.toml import load_toml
 from hri.emotion.display import (
@@ -87,7 +87,8 @@ def test_a_file_without_a_range_leaves_the_melody_alone(tmp_path) -> None:
     path = tmp_path / "display.toml"
     path.write_text("".join(line for line in lines if not line.startswith("range")))
 
-    assert load_display(path).prosody(coordinates("anger")).range == 1.0
+    anger = EmotionState("anger", 0.5, 0.0, 0.5, 0.0)
+    assert load_display(path).prosody(anger).range == 1.0
 
 
 def test_anger_and_sadness_sound_as_published() -> None:
@@ -101,9 +102,11 @@ def test_anger_and_sadness_sound_as_published() -> None:
 @settings(deadline=None)
 @given(axes, axes, axes)
 def test_everything_that_follows_stays_within_limits(p: float, a: float, d: float) -> None:
-    felt = felt_now(EmotionState("calm", 0.0, p, a, d, {"joy": 1.0, "anger": 1.0}))
+    state = EmotionState("calm", 0.0, p, a, d, {"joy": 1.0, "anger": 1.0, "fear": 0.7})
+    felt = felt_now(state)
     assert (np.abs(felt) <= 1).all()
-    prosody = DISPLAY.prosody(felt)
+    prosody = DISPLAY.prosody(state)
+    assert (np.abs(astuple(prosody.quality)) <= 1).all()
     assert 0.75 <= prosody.rate <= 1.25
     assert 0.8 <= prosody.pitch <= 1.2
     assert 0.7 <= prosody.volume <= 1.3
@@ -112,9 +115,33 @@ def test_everything_that_follows_stays_within_limits(p: float, a: float, d: floa
 
 
 def test_nothing_felt_changes_nothing() -> None:
-    felt = felt_now(EmotionState("calm", 0.0, 0.0, 0.0, 0.0))
-    assert DISPLAY.prosody(felt) == Prosody()
-    assert DISPLAY.speed.value(felt) == 1.0
+    calm = EmotionState("calm", 0.0, 0.0, 0.0, 0.0)
+    assert DISPLAY.prosody(calm) == Prosody()
+    assert DISPLAY.speed.value(felt_now(calm)) == 1.0
+
+
+def test_half_a_fear_trembles_half_as_much() -> None:
+    whole, half = (
+        DISPLAY.prosody(EmotionState("fear", share, 0.0, 0.0, 0.0, {"fear": share}))
+        for share in (1.0, 0.5)
+    )
+    assert whole.quality.tremble > 0.5
+    assert half.quality.tremble == pytest.approx(whole.quality.tremble / 2)
+    assert 1.0 < half.pitch <= whole.pitch
+
+
+@pytest.mark.parametrize(
+    ("line", "what"),
+    [("fear = { breath = -0.5 }", "breath"), ("fear = { wobble = 1 }", "wobble")],
+)
+def test_a_mistake_in_the_voice_of_an_emotion_has_its_line(tmp_path, line: str, what: str) -> None:
+    text = display_path().read_text(encoding="utf-8")
+    begin = text.index("fear = {", text.index("[voice.of]"))
+    path = tmp_path / "display.toml"
+    path.write_text(text[:begin] + line + text[text.index("\n", begin) :], encoding="utf-8")
+    with pytest.raises(AuthoringError, match=what) as refused:
+        load_display(path)
+    assert refused.value.place.line == text[:begin].count("\n") + 1
 
 
 def test_an_emotion_shows_before_the_mood_has_moved() -> None:

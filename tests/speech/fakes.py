@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -31,12 +31,16 @@ class ScriptedEars(Recognizer):
         self.decoded_with: list[frozenset[str]] = []
         self.last = 0.0
         self.count = 0
+        self.known: dict[str, dict[str, tuple[str, ...]]] = {}
         self.pause = 0.0  # seconds at the end of each piece in which nobody speaks
 
     def start(self, grammar: Grammar) -> None:
         if "unspeakable" in grammar.words():
             raise HriError("unspeakable - write another word")
         self.started_with = grammar
+
+    def know(self, slot: str, sounds: Mapping[str, tuple[str, ...]]) -> None:
+        self.known[slot] = dict(sounds)
 
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         due = [time for time in self.script if self.last < time <= end]
@@ -107,7 +111,11 @@ class TimedSpeaker(Speaker):
 class CountingVoice(Synthesizer):
     """A tenth of a second for each letter, by the rate of the prosody."""
 
+    def _open(self) -> None:
+        self.sounds: list[tuple[tuple[str, tuple[str, ...]], ...]] = []
+
     def synthesize(self, text: str, prosody: Prosody = PLAIN) -> Speech:
+        self.sounds.append(prosody.sounds)
         duration = 0.1 * len(text) / prosody.rate
         samples = np.zeros(round(duration * 1000), np.int16)
         return Speech(text, samples, 1000, (Phoneme("a", 0.0, duration),))
@@ -125,7 +133,7 @@ class Stage:
         self.ears = self._add("recognizer", ScriptedEars)
         self.speaker = self._add("speaker", TimedSpeaker)
         self._add("microphone", microphone)
-        self._add("voice", CountingVoice)
+        self.voice = self._add("voice", CountingVoice)
         self.behavior = behavior
         behavior.start(Context(self.clock, bus, self.resources))
 

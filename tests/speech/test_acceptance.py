@@ -321,3 +321,26 @@ def test_small_talk_of_others_is_not_answered(write):
     overheard = judge(grammar, PIECE, words, turn=Turn(is_addressed=False))
     assert (overheard.reason, overheard.detail) == ("not now", "said to someone else")
     assert judge(grammar, PIECE, words, turn=Turn()).rule == "age"
+
+
+def test_a_slot_that_loses_against_its_own_sound_is_asked_for_alone(write):
+    grammar = load_grammar(
+        write(
+            "public <order> = (small {size=small} | large {size=large}) coffee\n"
+            "  with (soy milk {milk=soy} | oat milk {milk=oat});\n"
+        )
+    )
+    text = "large coffee with oat milk"
+
+    def judged(oat, strictness=0.5):
+        words = [HeardWord(word, 0.0, 0.1, oat if word == "oat" else 0.99) for word in text.split()]
+        return judge(grammar, PIECE, Hypothesis(text, 0.9, tuple(words)), strictness)
+
+    assert judged(0.98).tags == {"size": "large", "milk": "oat"}
+    rejection = judged(0.05)
+    assert (rejection.reason, rejection.detail) == (
+        "low confidence",
+        'unsure of "coffee with oat milk"',
+    )
+    assert (rejection.sure, rejection.unsure) == ({"size": "large"}, ("milk",))
+    assert judged(0.05, strictness=0.0).tags == {"size": "large", "milk": "oat"}

@@ -6,6 +6,7 @@ import pytest
 
 from hri.behavior.ports import OutputPort
 from hri.core.errors import AuthoringError, HriError
+from hri.core.signals import HeardSlot
 from hri.speech.behaviors import Listener
 
 from .fakes import TICK, DeafMicrophone, HighMicrophone, Stage
@@ -46,6 +47,26 @@ def test_a_command_is_heard_with_its_meaning():
         "continues": False,
         "follow_up": "",
     }
+
+
+def test_words_of_a_free_slot_come_with_their_sound(write):
+    stage = Stage(Listener(grammar=str(write("public <name> = my name is <name.spoken>;"))))
+    slot = HeardSlot("name", "siobhan", ("SH", "IH", "V", "AO", "N"), 0.8, ("chevonne",))
+    stage.ears.script[1.0] = ("my name is siobhan", 0.9, (), (), "", "", (slot,))
+
+    stage.run(1.5)
+
+    ((_, name, properties),) = stage.events
+    assert (name, properties["tags"]) == ("speech.heard", {"name": "siobhan"})
+    assert properties["command"] == "my name is siobhan"
+    assert properties["spoken"] == {
+        "name": {
+            "text": "siobhan",
+            "phones": ["SH", "IH", "V", "AO", "N"],
+            "others": ["chevonne"],
+        }
+    }
+    assert stage.behavior.last_utterance.slots == (slot,)
 
 
 @pytest.mark.parametrize(
@@ -486,3 +507,12 @@ def test_who_goes_on_after_a_stop_is_heard_too():
         "stop",
         "go forward",
     ]
+
+
+def test_what_people_said_in_a_slot_is_known_to_the_ears():
+    stage = Stage(Listener())
+    stage.behavior.know("name", {"zorvin": ("Z", "AO", "R", "V", "IH", "N")})
+    stage.run(0.2)
+    assert stage.ears.known == {"name": {"zorvin": ("Z", "AO", "R", "V", "IH", "N")}}
+    stage.behavior.know("name", {})
+    assert stage.ears.known == {"name": {}}

@@ -196,6 +196,21 @@ def test_typed_lines_are_heard(resources, companion):
     assert typed.listen(SECOND, 4.0) == []
 
 
+def test_a_typed_line_has_the_words_of_a_free_slot_as_they_were_typed(resources, write):
+    grammar = load_grammar(write("public <name> = my name is <name.spoken>;"))
+    typed = TypedRecognizer(Description("keys", "Hri.Typed"), resources)
+    typed.activate()
+    typed.start(grammar)
+    typed.type_line("My name is Jean-Luc McCoy!", 2.0)
+
+    (segment,) = typed.listen(SECOND, 3.0)
+
+    result = judge(grammar, segment, typed.decode(segment), 0.5)
+    assert result.tags == {"name": "Jean-Luc McCoy"}
+    assert result.text == result.command == "my name is jean-luc mccoy"
+    assert result.slots == ()
+
+
 def test_lines_of_the_terminal_have_the_keyboard_as_their_origin(resources, monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.StringIO("go home\n"))
     typed = TypedRecognizer(Description("keys", "Hri.Typed"), resources)

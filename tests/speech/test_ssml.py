@@ -100,6 +100,46 @@ def test_within_a_sentence_no_pause_is_left():
     assert pauses == []
 
 
+@pytest.mark.parametrize("word", ["I", "she", "took", "money"])
+def test_weight_on_a_word_is_heard_within_the_sentence(word):
+    """It gets longer and higher, it is as high as any, and what follows is flat."""
+    pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
+    text = "I never said she took the money."
+    strong = f'<emphasis level="strong">{word}</emphasis>'
+    plain = said(f"<speak>{text}</speak>", NaturalVoice)
+    heavy = said(f"<speak>{text.replace(word, strong, 1)}</speak>", NaturalVoice)
+    assert [w.text for w in heavy.words] == [w.text for w in plain.words]
+    assert [s.text for s in heavy.sentences] == [text]
+    place = next(n for n, w in enumerate(heavy.words) if w.text.strip(".") == word)
+    before, after = (one.words[place].end - one.words[place].start for one in (plain, heavy))
+    assert after > 1.1 * before
+    pitches = [pitch_within(heavy, w.start, w.end) for w in heavy.words]
+    assert pitches[place] > 1.15 * pitch_within(plain, *spoken_at(plain, place))
+    assert pitches[place] >= 0.93 * max(pitches)
+    later = pitches[place + 1 :]
+    assert not later or max(later) < 0.85 * pitches[place]
+
+
+def spoken_at(speech, place):
+    return speech.words[place].start, speech.words[place].end
+
+
+def pitch_within(speech, start, end):
+    """The highest pitch, hertz, of what is loud in a stretch, by autocorrelation; else 0."""
+    size, found = 1024, [0.0]
+    first, last = round(start * speech.rate), round(end * speech.rate)
+    for begin in range(first, max(last - size // 2, first + 1), 240):
+        part = speech.samples[begin : begin + size].astype(float)
+        if len(part) < size or np.sqrt((part**2).mean()) < 800:
+            continue
+        alike = np.correlate(part, part, "full")[size - 1 :] / np.arange(size, 0, -1)
+        lags = slice(speech.rate // 420, speech.rate // 110)
+        best = int(np.argmax(alike[lags])) + lags.start
+        if alike[best] > 0.7 * alike[0]:
+            found.append(speech.rate / best)
+    return float(np.percentile(found, 80))
+
+
 def test_a_mark_is_an_event_when_it_is_reached():
     stage = Stage(Voice())
     stage.behavior.say(Ssml.parse('<speak>hello<mark name="half"/>hello<mark name="e"/></speak>'))

@@ -19,10 +19,11 @@ from hri.hal.drivers.wav_file import write_wav
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.speech.behaviors import Voice
+from hri.speech.ssml import Ssml
 from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.synthesizers.silent import SilentVoice
 from hri.speech.tasks import say
-from hri.speech.voice import MOST_QUEUED, Priority, Saying
+from hri.speech.voice import MOST_PRONOUNCED, MOST_QUEUED, Priority, Saying
 from hri.task.task_manager import TaskManager
 
 from .fakes import TICK, Stage
@@ -112,6 +113,42 @@ def test_one_thing_can_be_taken_back():
 
 def test_nothing_to_say_is_done_at_once():
     assert Stage(Voice()).behavior.say("  ").is_done
+
+
+def said_with(stage, text):
+    """The sounds that the synthesizer was given for a text."""
+    stage.behavior.say(text)
+    stage.run(0.2 + 0.1 * len(str(getattr(text, "text", text))))
+    return dict(stage.voice.sounds[-1])
+
+
+def test_a_word_is_said_by_the_phones_that_were_heard():
+    stage = Stage(Voice())
+    assert said_with(stage, "Anna?") == {}
+    stage.behavior.pronounce("Anna", ["AA", "N", "AH"])
+    assert said_with(stage, "Anna?") == {"anna": ("AA", "N", "AH")}
+    stage.behavior.pronounce("anna", ("AE", "N", "AH"))
+    assert said_with(stage, "Anna?") == {"anna": ("AE", "N", "AH")}
+    stage.behavior.pronounce("anna", ())
+    assert said_with(stage, "Anna?") == {}
+
+
+def test_phones_of_markup_go_before_those_that_were_heard():
+    stage = Stage(Voice())
+    stage.behavior.pronounce("anna", ("AE", "N", "AH"))
+    markup = '<speak><phoneme alphabet="x-arpabet" ph="AA N AA">Anna</phoneme></speak>'
+    assert said_with(stage, Ssml.parse(markup)) == {"anna": ("AA", "N", "AA")}
+
+
+def test_several_words_are_said_as_they_are_written_and_the_oldest_is_dropped():
+    stage = Stage(Voice())
+    stage.behavior.pronounce("anna maria", ("AE", "N", "AH"))
+    assert said_with(stage, "hi") == {}
+    for number in range(MOST_PRONOUNCED + 1):
+        stage.behavior.pronounce(f"n{number}", ("AE", "N"))
+    known = said_with(stage, "hi")
+    assert len(known) == MOST_PRONOUNCED
+    assert "n0" not in known
 
 
 def test_prosody_shapes_the_speech():
@@ -395,3 +432,42 @@ class MouthMachine(RuleBasedStateMachine):
 
 TestMouth = MouthMachine.TestCase
 TestMouth.settings = settings(max_examples=40, stateful_step_count=20, deadline=None)
+
+
+def test_a_sound_among_the_words_is_made_unless_they_are_not_wanted():
+    stage = Stage(Voice())
+    whole = stage.behavior.say("[giggle] yes")
+    stage.run(0.3)
+    assert stage.behavior.speech.value.text == "[giggle] yes"
+    stage.run(3.0)
+    assert whole.is_done
+
+    stage.behavior.makes_sounds = False
+    words, nothing = stage.behavior.say("[giggle] yes"), stage.behavior.say("[giggle]")
+    assert nothing.is_done
+    stage.run(0.3)
+    assert stage.behavior.speech.value.text == "yes"
+    stage.run(3.0)
+    assert words.is_done
+
+
+def test_a_gesture_sounds_while_nothing_is_said_and_gives_way_to_words():
+    stage = Stage(Voice())
+    events = stage.behavior._events
+    events.raise_event("gesture.started", name="yawn")
+    stage.run(0.3)
+    assert said(stage) == ["[yawn]"]
+    words = stage.behavior.say("a rather long sentence")
+    stage.run(0.3)
+    assert stage.behavior.speech.value.text == "a rather long sentence"
+    events.raise_event("gesture.started", name="laugh")
+    stage.run(3.0)
+    assert words.is_done
+    assert said(stage) == ["[yawn]", "a rather long sentence"]
+
+    events.raise_event("gesture.started", name="nod")
+    stage.run(1.0)
+    stage.behavior.quiet_until = 60.0
+    events.raise_event("gesture.started", name="yawn")
+    stage.run(1.0)
+    assert said(stage) == ["[yawn]", "a rather long sentence"]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from hri.bench.speech.listening import Heard
 from hri.bench.speech.samples import Clip
@@ -29,7 +30,7 @@ class Outcome:
             return False
         only = self.accepted[0]
         if self.clip.slots:
-            return slots(only) == self.clip.slots
+            return slots(only.tags) == self.clip.slots
         return only.text == self.clip.sentence
 
     @property
@@ -50,9 +51,9 @@ class Outcome:
         return f"{self.clip.name}: {heard}"
 
 
-def slots(heard: Heard) -> dict[str, str]:
+def slots(tags: Mapping[str, Any]) -> dict[str, str]:
     """The slots of an order, as the labels write them: how much of what is one slot."""
-    found = {name: str(value) for name, value in heard.tags.items()}
+    found = {name: str(value) for name, value in tags.items()}
     for amount, what in (("milkAmount", "milk"), ("sugarAmount", "sugar")):
         if what in found:
             found[amount] = f"{found.get(amount, '')} {found.pop(what)}".strip()

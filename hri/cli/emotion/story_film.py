@@ -9,7 +9,6 @@ from dataclasses import replace
 from hri.core.errors import HriError
 from hri.core.signals import Prosody, Speech
 from hri.emotion.affect import Affect
-from hri.emotion.display import felt_now
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.explanation import explained
 from hri.emotion.model_spec import EmotionModelSpec
@@ -40,7 +39,7 @@ def scene_of_story(model: EmotionModelSpec, moments: Sequence[Moment], voice: Vo
         later = events[number + 1].line.time if number + 1 < len(events) else math.inf
         answers = moment.line.time + min(_settles(model, moment), later - moment.line.time)
         affect = dynamics.advance(moment.affect, answers)
-        prosody = model.display.prosody(felt_now(dynamics.read(affect)))
+        prosody = model.display.prosody(dynamics.read(affect))
         speech = voice(
             explained(model, dynamics, affect), replace(prosody, voice=model.personality.voice)
         )

@@ -20,17 +20,20 @@ from hri.core.quoting import report
 from hri.core.reading import LARGEST_FILE
 from hri.core.signals import EmotionState, Expression, Prosody, Speech
 from hri.core.writing import write_text
-from hri.emotion.display import felt_now, load_display
+from hri.emotion.display import load_display
 from hri.emotion.emotions import NAMES
 from hri.face import load_face
-from hri.face.lips.lipsync import ARTICULATORS, PhonemeTrack
+from hri.face.lips.lipsync import PhonemeTrack
+from hri.face.lips.loudness import Loudness
 from hri.face.lips.phonemes import Alphabet
+from hri.face.lips.spans import ARTICULATORS
 from hri.face.scene import scene_of
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.speech.ssml import Ssml, is_ssml, spoken
 from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST
+from hri.speech.vocalizations.in_text import has_sounds
 
 STANDARD_OUTPUT = Path("-")
 PATIENCE = 2.0
@@ -164,9 +167,10 @@ def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Spee
         told = f"only the first {LONGEST_TEXT} characters of {len(text)} are spoken"
         report(f"{told} - say it in parts", file=sys.stderr)
     voice = open_voice(resources, options.voice, options.rate)
-    if is_markup:
-        return spoken(Ssml.parse(text), voice, prosody, lambda speech: None, lambda: True)
-    return voice.synthesize(text, prosody)
+    if not is_markup and not has_sounds(text):
+        return voice.synthesize(text, prosody)
+    document = Ssml.parse(text) if is_markup else Ssml.of_text(text)
+    return spoken(document, voice, prosody, lambda speech: None, lambda: True)
 
 
 def prosody_of(feeling: str, intensity: float) -> Prosody:
@@ -174,7 +178,7 @@ def prosody_of(feeling: str, intensity: float) -> Prosody:
     an unknown emotion.
     """
     state = _feeling(feeling, intensity)
-    return Prosody() if state is None else load_display().prosody(felt_now(state))
+    return Prosody() if state is None else load_display().prosody(state)
 
 
 def expression_of(feeling: str | None, intensity: float) -> Expression:
@@ -211,7 +215,7 @@ def times_of(speech: Speech) -> dict[str, Any]:
 
 def visemes_of(speech: Speech) -> dict[str, Any]:
     """The mouth shapes of a speech with phonemes, as written to JSON; see HELP."""
-    track = PhonemeTrack(speech.phonemes)
+    track = PhonemeTrack(speech.phonemes, Loudness(speech.samples, speech.rate))
     segments = (segment for segment in track.segments if segment.viseme != "sil")
     return {
         "text": speech.text,

@@ -26,13 +26,21 @@ from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.resampling import resample
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.resource_manager import ResourceManager
-from hri.hal.synthesizer import Synthesizer
+from hri.hal.synthesizer import Skill, Synthesizer
+from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.synthesizers.espeak_library import Setting, load_espeak
-from hri.speech.synthesizers.pyttsx3 import platform_voices
+from hri.speech.synthesizers.natural import NaturalVoice
+from hri.speech.synthesizers.pyttsx3 import Pyttsx3Voice, platform_voices
 from hri.speech.synthesizers.voice_names import CHARACTERS, HEART, tongue, unknown, voice_named
 
 VARIANT = "+"
 """Language of a variant, which speaks any."""
+VOICES: dict[str, type[Synthesizer]] = {
+    "Hri.NaturalVoice": NaturalVoice,
+    "Hri.EspeakVoice": EspeakVoice,
+    "Hri.Pyttsx3Voice": Pyttsx3Voice,
+}
+"""What speaks, by device type."""
 PLAIN_ESPEAK = Setting().voice
 SAMPLE = "Hello! It is good to see you. This is how I sound."
 COUNTING = "1, 2, 3, 4, 5, 6, 7."
@@ -60,6 +68,8 @@ class Listed:
     """Megabytes of the files of its device type; None where they are not known."""
     speed: float | None = None
     """Seconds of sound that are made in a second, of its device type."""
+    cannot: tuple[str, ...] = ()
+    """What of a feeling it leaves out."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -113,19 +123,22 @@ def all_voices() -> list[Listed]:
 
 
 def engine_of(driver: str) -> dict[str, Any]:
-    """License, size and speed of what speaks for a device type."""
+    """License, size and speed of a device type that speaks, and the skills that it lacks."""
+    kind = VOICES[driver]
+    cannot = tuple(skill.value for skill in Skill if skill not in kind.skills)
     licenses = {"Hri.NaturalVoice": "Apache-2.0", "Hri.EspeakVoice": "GPL-3.0-or-later"}
     if driver not in licenses:
-        return {"license": "the system's"}
+        return {"license": "the system's", "cannot": cannot}
     package = {"Hri.NaturalVoice": "hibari-tts", "Hri.EspeakVoice": "espeakng-loader"}[driver]
     name = {"Hri.NaturalVoice": HEART, "Hri.EspeakVoice": PLAIN_ESPEAK}[driver]
     with ResourceManager((), RealClock(), notice=_complain) as resources:
         voice = open_voice(resources, name)
-        voice.synthesize(SAMPLE)
+        voice.synthesize(COUNTING)  # what is said again would come from memory
         begun = time.perf_counter()
         made = voice.synthesize(SAMPLE).duration
         speed = made / (time.perf_counter() - begun)
-    return {"license": licenses[driver], "size_mb": size_of(package), "speed": round(speed, 1)}
+    known = {"license": licenses[driver], "size_mb": size_of(package), "speed": round(speed, 1)}
+    return {**known, "cannot": cannot}
 
 
 def size_of(package: str) -> float | None:
@@ -199,12 +212,12 @@ def _told(voices: Iterable[Listed]) -> str:
 
 
 def _engines(voices: Iterable[Listed]) -> str:
-    """Size, license and speed of each device type."""
-    rows = [("device type", "size", "license", "speed")]
+    """Size, license and speed of each device type, and what it leaves out."""
+    rows = [("device type", "size", "license", "speed", "cannot")]
     for voice in {voice.driver: voice for voice in voices}.values():
         size = "-" if voice.size_mb is None else f"{voice.size_mb:.0f} MB"
         speed = "-" if voice.speed is None else f"{voice.speed:.0f} times real time"
-        rows.append((voice.driver, size, voice.license, speed))
+        rows.append((voice.driver, size, voice.license, speed, ", ".join(voice.cannot) or "-"))
     return _columns(rows)
 
 

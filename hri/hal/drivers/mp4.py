@@ -18,7 +18,7 @@ from hri.core.errors import HriError
 
 TICKS = 1000
 """Parts of a picture's time, of which times are whole numbers."""
-_UNITY = struct.pack(">9I", 0x10000, 0, 0, 0, 0x10000, 0, 0, 0, 0x40000000)
+UNITY = struct.pack(">9I", 0x10000, 0, 0, 0, 0x10000, 0, 0, 0, 0x40000000)
 """The matrix that leaves a picture as it is."""
 _KEY, _OTHER = 0x02000000, 0x01010000
 """Flags of a picture that stands alone, and of one that builds on those before."""
@@ -41,7 +41,8 @@ def box(name: str, *parts: bytes) -> bytes:
     return struct.pack(">I", 8 + len(content)) + name.encode() + content
 
 
-def _full(name: str, version: int, flags: int, *parts: bytes) -> bytes:
+def full_box(name: str, version: int, flags: int, *parts: bytes) -> bytes:
+    """A box with a version and flags, as most tables are."""
     return box(name, struct.pack(">I", version << 24 | flags), *parts)
 
 
@@ -133,9 +134,9 @@ def file_type() -> bytes:
 
 def empty_table(size: tuple[int, int], rate: float, coding: bytes) -> bytes:
     """The table of contents of a file whose pictures come in fragments."""
-    empty = [_full(name, 0, 0, bytes(4)) for name in ("stts", "stsc", "stco")]
-    tables = [*empty, _full("stsz", 0, 0, bytes(8))]
-    extends = _full("trex", 0, 0, struct.pack(">5I", 1, 1, TICKS, 0, _OTHER))
+    empty = [full_box(name, 0, 0, bytes(4)) for name in ("stts", "stsc", "stco")]
+    tables = [*empty, full_box("stsz", 0, 0, bytes(8))]
+    extends = full_box("trex", 0, 0, struct.pack(">5I", 1, 1, TICKS, 0, _OTHER))
     return _table(size, rate, 0, coding, tables, box("mvex", extends))
 
 
@@ -153,11 +154,11 @@ def fragment(number: int, first: int, pictures: Pictures) -> bytes:
         run = struct.pack(">II", len(pictures.sizes), offset)
         track = box(
             "traf",
-            _full("tfhd", 0, 0x20000, struct.pack(">I", 1)),
-            _full("tfdt", 1, 0, struct.pack(">Q", first * TICKS)),
-            _full("trun", 0, 0x601, run, each),
+            full_box("tfhd", 0, 0x20000, struct.pack(">I", 1)),
+            full_box("tfdt", 1, 0, struct.pack(">Q", first * TICKS)),
+            full_box("trun", 0, 0x601, run, each),
         )
-        return box("moof", _full("mfhd", 0, 0, struct.pack(">I", number)), track)
+        return box("moof", full_box("mfhd", 0, 0, struct.pack(">I", number)), track)
 
     return head(len(head(0)) + 8) + box("mdat", pictures.data)
 
@@ -191,17 +192,22 @@ def whole_table(size: tuple[int, int], rate: float, coding: bytes, contents: Con
         number += len(list(group))
     sizes = contents.sizes
     tables = [
-        _entries("stts", 1, array("I", [len(sizes), TICKS])),
-        _entries("stss", len(contents.keys), contents.keys),
-        _entries("stsc", len(runs) // 3, runs),
-        _full("stsz", 0, 0, struct.pack(">II", 0, len(sizes)), _in_file_order("I", sizes)),
-        _entries("co64", len(contents.places), contents.places, "Q"),
+        numbers("stts", 1, array("I", [len(sizes), TICKS])),
+        numbers("stss", len(contents.keys), contents.keys),
+        numbers("stsc", len(runs) // 3, runs),
+        full_box("stsz", 0, 0, struct.pack(">II", 0, len(sizes)), _in_file_order("I", sizes)),
+        numbers("co64", len(contents.places), contents.places, "Q"),
     ]
     return _table(size, rate, len(sizes), coding, tables)
 
 
-def _entries(name: str, count: int, values: Sequence[int], code: str = "I") -> bytes:
-    return _full(name, 0, 0, struct.pack(">I", count), _in_file_order(code, values))
+IN_THIS_FILE = box("dinf", full_box("dref", 0, 0, struct.pack(">I", 1), full_box("url ", 0, 1)))
+"""Where the data of a track is."""
+
+
+def numbers(name: str, count: int, values: Sequence[int], code: str = "I") -> bytes:
+    """A table of entries, which are made of numbers: of 32 bits, or as an array's code says."""
+    return full_box(name, 0, 0, struct.pack(">I", count), _in_file_order(code, values))
 
 
 def _in_file_order(code: str, values: Sequence[int]) -> bytes:
@@ -223,22 +229,22 @@ def _table(
     width, height = size
     scale, duration = round(rate * TICKS), count * TICKS
     times = struct.pack(">QQIQ", 0, 0, scale, duration)
-    movie = _full(
-        "mvhd", 1, 0, times, struct.pack(">IHH8x", 0x10000, 0x100, 0), _UNITY, bytes(24),
+    movie = full_box(
+        "mvhd", 1, 0, times, struct.pack(">IHH8x", 0x10000, 0x100, 0), UNITY, bytes(24),
         struct.pack(">I", 2),
     )  # fmt: skip
-    track = _full(
-        "tkhd", 1, 3, struct.pack(">QQIIQ16x", 0, 0, 1, 0, duration), _UNITY,
+    track = full_box(
+        "tkhd", 1, 3, struct.pack(">QQIIQ16x", 0, 0, 1, 0, duration), UNITY,
         struct.pack(">II", width << 16, height << 16),
     )  # fmt: skip
     media = box(
         "mdia",
-        _full("mdhd", 1, 0, times, struct.pack(">HH", 0x55C4, 0)),
-        _full("hdlr", 0, 0, struct.pack(">I4s12x", 0, b"vide"), b"face\0"),
+        full_box("mdhd", 1, 0, times, struct.pack(">HH", 0x55C4, 0)),
+        full_box("hdlr", 0, 0, struct.pack(">I4s12x", 0, b"vide"), b"face\0"),
         box(
             "minf",
-            _full("vmhd", 0, 1, bytes(8)),
-            box("dinf", _full("dref", 0, 0, struct.pack(">I", 1), _full("url ", 0, 1))),
+            full_box("vmhd", 0, 1, bytes(8)),
+            IN_THIS_FILE,
             box("stbl", box("stsd", coding), *tables),
         ),
     )

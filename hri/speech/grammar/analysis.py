@@ -9,6 +9,7 @@ from itertools import islice
 from typing import TypeVar
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
+from hri.speech.grammar import free_slots
 from hri.speech.grammar.doc_comments import ANY_COMMAND, LAST, DocTag
 from hri.speech.grammar.exported_rules import exported_rules
 from hri.speech.grammar.expressions import (
@@ -23,6 +24,7 @@ from hri.speech.grammar.expressions import (
 )
 from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.rules import Rule, Rules
+from hri.speech.grammar.words import ANY, misspelt_slot
 
 RulesByKey = Mapping[str, Rule]
 V = TypeVar("V")
@@ -55,8 +57,14 @@ def tag_names(grammar: Rules, keys: Iterable[str]) -> frozenset[str]:
     """Names of all tags that an understood sentence of these rules may have."""
     rules = [grammar.rules[key] for key in reachable(grammar.rules, keys)]
     entries = [entry for rule in rules for entry in rule.tag_entries]
+    slots = {
+        node.slot
+        for rule in rules
+        for node in rule.nodes
+        if isinstance(node, Anything) and node.slot
+    }
     used_up = {name for entry in entries for name in entry.takes if name != entry.name}
-    return frozenset({entry.name for entry in entries} - used_up)
+    return frozenset(({entry.name for entry in entries} | slots) - used_up)
 
 
 class Height(Fold[float]):
@@ -271,7 +279,7 @@ def errors(grammar: Rules) -> list[AuthoringError]:
     found = [*_undefined(grammar), *islice(left_recursion(grammar), MOST_CIRCLES)]
     if not found and not grammar.broken:
         found = [*_without_public(grammar), *_never_said(grammar), *_never_set(grammar)]
-        found = found or [*_lost_marks(grammar)] or [*_too_free(grammar)]
+        found = found or [*_lost_marks(grammar), *_unread_limits(grammar)] or [*_too_free(grammar)]
         found = found or [*_without_words(grammar)] or [*_guessed(grammar)]
     return sorted(found, key=lambda error: (error.place.line, error.place.column))
 
@@ -306,6 +314,8 @@ def _undefined(grammar: Rules) -> Iterator[AuthoringError]:
                     names = grammar.names if rule.path == grammar.path else grammar.rules
                     near = {*names, *offered}
                     remedy = did_you_mean(node.name, near, f"write <{node.name}> = words;")
+                if slot := misspelt_slot(node.name):
+                    remedy = f'did you mean "{slot}"?'
                 yield AuthoringError(rule.place(node.span), what, remedy)
                 if len(told) >= MOST_TOLD:
                     return
@@ -320,6 +330,8 @@ def _never_set(grammar: Rules) -> Iterator[AuthoringError]:
         if isinstance(node, Tagged)
     ]
     known = {entry.name for _, node in tagged for entry in node.entries}
+    nodes = (node for rule in grammar.rules.values() for node in rule.nodes)
+    known |= {node.slot for node in nodes if isinstance(node, Anything)}
     for rule, node in tagged:
         for entry in node.entries:
             for name in entry.takes:
@@ -375,6 +387,15 @@ def _lost_marks(grammar: Rules) -> Iterator[AuthoringError]:
                 yield AuthoringError(rule.place(tag.span), what, "take one of the two marks out")
 
 
+def _unread_limits(grammar: Rules) -> Iterator[AuthoringError]:
+    """Limits of free slots that are not understood."""
+    for rule, tag in free_slots.marks(grammar):
+        if free_slots.read_limits(tag) is None:
+            what = f'@spoken "{tag.text[:40]}" does not say what may stand in a free slot'
+            remedy = 'write @spoken name 2-12 letters, like "mc*", without not, or all of them'
+            yield AuthoringError(rule.place(tag.span), what, remedy)
+
+
 def _lost(
     grammar: Rules, rule: Rule, tag: DocTag, names: Collection[str]
 ) -> Iterator[AuthoringError]:
@@ -403,10 +424,17 @@ def _too_free(grammar: Rules) -> Iterator[AuthoringError]:
     for key in grammar.public_rules:
         rule = grammar.rules[key]
         if free[key] and (not silent[key] or "anywhere" in rule.marks):
-            what = f"<{key}> can be said with <any> alone, so it takes whatever is said"
+            what = f"<{key}> can be said with {_free_of(grammar, key)} alone, so it takes whatever"
+            what += " is said"
             yield AuthoringError(rule.place(), what, "write a word that must be said")
         if _moves(grammar, rule):
             yield from _free_orders(grammar, rule)
+
+
+def _free_of(grammar: Rules, key: str) -> str:
+    """The first free words of a command as they are written; `<any>` for those around it."""
+    nodes = (node for name in reachable(grammar.rules, [key]) for node in grammar.rules[name].nodes)
+    return next((node.written for node in nodes if isinstance(node, Anything)), ANY)
 
 
 def _free_orders(grammar: Rules, rule: Rule) -> Iterator[AuthoringError]:

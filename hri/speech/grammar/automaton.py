@@ -85,7 +85,15 @@ class Defer:
     entries: tuple[TagEntry, ...]
 
 
-Action = Enter | Leave | Apply | Defer
+@dataclass(frozen=True, slots=True)
+class Take:
+    """A word of a free slot, which sets the tag of that name."""
+
+    slot: str
+    is_first: bool
+
+
+Action = Enter | Leave | Apply | Defer | Take
 Actions = tuple[Action, ...]
 
 
@@ -351,6 +359,9 @@ class _Builder:
         """Word by word; of all ways through them the shortest comes first."""
         if self._lists_only:
             return
+        if node.slot:
+            self._slot(job, node)
+            return
         if self._is_spoken:
             self._arcs.add(job, job.end, node.written, job.before + job.after)
             return
@@ -360,6 +371,21 @@ class _Builder:
             job = job._replace(start=inside, before=(), weight=_HALF)
             if number >= node.least:
                 self._arcs.add(job, job.end, None, job.after)
+
+    def _slot(self, job: _Job, node: Anything) -> None:
+        """The same with the words taken as a value: of two slots the first has as few as can be."""
+        take = (Take(node.slot, is_first=True),)
+        if self._is_spoken:
+            self._arcs.add(job, job.end, node.written, job.before + take + job.after)
+            return
+        for number in range(1, node.most + 1):
+            if number >= node.least:
+                self._arcs.add(job, job.end, ANY, job.before + take + job.after)
+            if number < node.most:
+                inside = self._new_node()
+                self._arcs.add(job, inside, ANY, job.before + take)
+                job = job._replace(start=inside, before=(), weight=_HALF)
+                take = (Take(node.slot, is_first=False),)
 
     def _later(self, jobs: Iterator[_Job]) -> None:
         self._jobs += reversed(list(jobs))

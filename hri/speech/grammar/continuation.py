@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from hri.speech.grammar.automaton import START, Actions, Enter, Leave
 from hri.speech.grammar.matching import Matcher, as_spoken
 from hri.speech.grammar.rules import Rules
-from hri.speech.grammar.words import free_words, typed
+from hri.speech.grammar.words import free_words, slot_name, typed
 
 
 def may_go_on(grammar: Rules, rule: str, text: str, command: str) -> bool:
@@ -32,6 +32,7 @@ class _Walk:
     def __init__(self, grammar: Rules) -> None:
         self.matcher: Matcher = grammar.made(as_spoken)
         rules = grammar.rules.items()
+        self._slots = frozenset(filter(slot_name, self.matcher.words))
         self._aside = frozenset(name for name, rule in rules if "aside" in rule.marks)
 
     def along(self, node: int, words: str, without: str = "") -> set[int]:
@@ -39,15 +40,21 @@ class _Walk:
 
         Not by words said aside; or by these, too, but not by those of one public rule.
         """
-        targets, nodes = self.matcher.automaton.targets, {node}
+        nodes, in_slots = {node}, set[int]()
         for word in typed(words):
-            nodes = {
-                targets[arc]
-                for node in self._silently(nodes, without)
-                for arc in self.matcher.leaving(node)[1].get(word, ())
-                if without or not self._is_aside(arc)
-            }
+            nodes = self._silently(nodes, without)
+            # A slot may go on with any word, so its arcs stay open.
+            in_slots |= {arc for slot in self._slots for arc in self._said(nodes, slot, without)}
+            targets = self.matcher.automaton.targets
+            nodes = {targets[arc] for arc in (*self._said(nodes, word, without), *in_slots)}
         return nodes
+
+    def _said(self, nodes: set[int], word: str, without: str) -> Iterator[int]:
+        """The arcs by which a word leaves the nodes."""
+        for node in nodes:
+            for arc in self.matcher.leaving(node)[1].get(word, ()):
+                if without or not self._is_aside(arc):
+                    yield arc
 
     def goes_on(self, nodes: set[int]) -> bool:
         """Whether a word may follow one of the nodes."""

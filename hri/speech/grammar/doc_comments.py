@@ -43,13 +43,19 @@ ANY_COMMAND = "any"
 LAST = "last"
 """Behind `@as`: the command that was said last."""
 
+SPOKEN = "spoken"
+"""The tag that says what may stand in a free slot, `@spoken name 2-12 letters`."""
+
+REMEMBER = "remember"
+"""The tag that names what a sentence says of a person, `@remember likes`; an app may keep it."""
+
 STANDARD_TAGS = ("example", "see", "author", "version")
 """Doc tags of JSGF 1.0 that are not marks."""
 
 TOPIC = "topic"
 """The tag that names what a rule is about, `@topic teasing`; an app may leave a topic out."""
 
-KNOWN_TAGS = (*MARKS, TOPIC, *STANDARD_TAGS)
+KNOWN_TAGS = (*MARKS, TOPIC, SPOKEN, REMEMBER, *STANDARD_TAGS)
 
 _TAG = re.compile(r"(?<![^\s*])@([A-Za-z_]\w*)")
 _STARS = re.compile(r"^[ \t]*\*+", re.MULTILINE)

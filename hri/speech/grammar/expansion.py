@@ -1,7 +1,8 @@
 """Sentences of a grammar: all in turn, one by chance, and how many there are.
 
 Repeats are said at most twice here, and recursion goes a few rules deep. Choices of weight 0 are
-never said. Free words are "<any>". The same arguments give the same sentences in the same order.
+never said. Free words are "<any>", those of free slots, too, unless `ShownWays` shows what they
+usually are. The same arguments give the same sentences in the same order.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from hri.speech.grammar.expressions import (
     heard_choices,
 )
 from hri.speech.grammar.fold import Fold
+from hri.speech.grammar.free_slots import spoken_slots
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.words import ANY
 
@@ -52,12 +54,15 @@ _Said = tuple[str, "_Said"] | None
 """The words so far, the last one first."""
 
 
-def sentences(grammar: Rules, rules: Iterable[str], limit: int) -> Iterator[str]:
+def sentences(
+    grammar: Rules, rules: Iterable[str], limit: int, shown: type[Ways] | None = None
+) -> Iterator[str]:
     """Different sentences, at most `limit`, the rules taking turns.
 
-    A rule of which MOST_STALE ways in a row bring nothing new gives no more.
+    A rule of which MOST_STALE ways in a row bring nothing new gives no more. `shown` is
+    `ShownWays` for words that free slots usually have.
     """
-    ways = [grammar.made(Ways).all(key) for key in rules]
+    ways = [grammar.made(shown or Ways).all(key) for key in rules]
     seen: set[Words] = {()}
     while ways:
         for way in tuple(ways):
@@ -92,22 +97,28 @@ def _is_listed(sentence: str) -> bool:
 
 
 def random_sentence(
-    grammar: Rules, chance: random.Random, rules: Iterable[str] | None = None
+    grammar: Rules,
+    chance: random.Random,
+    rules: Iterable[str] | None = None,
+    shown: type[Ways] | None = None,
 ) -> str:
     """A sentence of one of the rules, all public ones without; drawn by the weights.
 
-    Optional parts are said half of the time. May be empty when the grammar allows silence.
-    Raises AuthoringError when the sentences of the rule are too long to be drawn, and for a grammar
-    without public rules.
+    Optional parts are said half of the time. May be empty when the grammar allows silence. `shown`
+    is `ShownWays` for words that free slots usually have. Raises AuthoringError when the sentences
+    of the rule are too long to be drawn, and for a grammar without public rules.
     """
-    return next(random_sentences(grammar, chance, rules))
+    return next(random_sentences(grammar, chance, rules, shown))
 
 
 def random_sentences(
-    grammar: Rules, chance: random.Random, rules: Iterable[str] | None = None
+    grammar: Rules,
+    chance: random.Random,
+    rules: Iterable[str] | None = None,
+    shown: type[Ways] | None = None,
 ) -> Iterator[str]:
     """Sentences as `random_sentence` draws them, without end; faster than one by one."""
-    keys, ways = tuple(rules or grammar.public_rules), grammar.made(Ways)
+    keys, ways = tuple(rules or grammar.public_rules), grammar.made(shown or Ways)
     if not keys:
         what = "no public rule, so there is no sentence"
         raise AuthoringError(Place(grammar.path), what, 'write "public" before a rule')
@@ -157,8 +168,10 @@ class Ways:
                 continue
             node, depth, rest = todo
             match node:
-                case Token(text=text) | Anything(text=text):
+                case Token(text=text):
                     stack.append((rest, (text, said)))
+                case Anything():
+                    stack.append((rest, (self.free(node), said)))
                 case Alternative():
                     for choice in reversed(heard_choices(node)):
                         self._push(stack, (choice, depth, rest), said)
@@ -181,8 +194,11 @@ class Ways:
                 return tuple(said)
             node, depth, rest = todo
             match node:
-                case Token(text=text) | Anything(text=text):
+                case Token(text=text):
                     said.append(text)
+                    todo = rest
+                case Anything():
+                    said.append(self.free(node, chance))
                     todo = rest
                 case Alternative():
                     todo = (self._drawn(node, depth, chance), depth, rest)
@@ -197,6 +213,10 @@ class Ways:
         rule = self._grammar.rules[key]
         what = f"<{key}> has sentences of more than {MOST_STEPS} parts"
         raise AuthoringError(rule.place(), what, "split it into shorter commands")
+
+    def free(self, node: Anything, chance: random.Random | None = None) -> str:
+        """What stands for free words."""
+        return node.text
 
     def height(self, node: Expression) -> float:
         """`Height`, looked up where it was asked for before."""
@@ -240,6 +260,27 @@ class Ways:
             known = self._odds[id(node), least] = [one for one, _ in fit], odds
         choices, odds = known
         return chance.choices(choices, cum_weights=odds)[0]
+
+
+class ShownWays(Ways):
+    """The same with what free slots usually are, by chance or the first, or `<name>` as often as
+    there must be a word.
+    """
+
+    def __init__(self, grammar: Rules) -> None:
+        super().__init__(grammar)
+        self._usual = {
+            written: [text for text in slot.known if slot.least <= len(text.split()) <= slot.most]
+            for written, slot in grammar.made(spoken_slots).items()
+        }
+
+    def free(self, node: Anything, chance: random.Random | None = None) -> str:
+        if not node.slot:
+            return super().free(node, chance)
+        usual = self._usual[node.written]
+        if not usual:
+            return " ".join([f"<{node.slot}>"] * node.least)
+        return usual[0] if chance is None else chance.choice(usual)
 
 
 def _row(items: tuple[Expression, ...], depth: int, rest: _Todo) -> _Todo:

@@ -10,7 +10,7 @@ from operator import is_
 from typing import NamedTuple
 
 from hri.speech.grammar.tags import TagEntry, spell_entries
-from hri.speech.grammar.words import ANY, MOST_FREE
+from hri.speech.grammar.words import ANY, MOST_FREE, MOST_SPOKEN
 
 _PLAIN = re.compile(r"""[^\s=;|*+<>()\[\]{}/"\\]+(?:/[^\s=;|*+<>()\[\]{}/"\\]+)*""")
 
@@ -34,12 +34,16 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Anything:
-    """`<any>`, `<any 2>`, `<any 1-3>`: words that nobody has listed."""
+    """`<any>`, `<any 2>`, `<any 1-3>`: words that nobody has listed; `<name.spoken>`: a free slot,
+    such words that set a tag.
+    """
 
     span: SourceSpan
     least: int = 1
     most: int = MOST_FREE
     """How many words."""
+    slot: str = ""
+    """The tag that its words are the value of; empty for `<any>`."""
 
     @property
     def text(self) -> str:
@@ -49,10 +53,11 @@ class Anything:
     @property
     def written(self) -> str:
         """As grammars have it, and word graphs."""
-        if (self.least, self.most) == (1, MOST_FREE):
-            return ANY
+        name = f"{self.slot}.spoken" if self.slot else "any"
+        if (self.least, self.most) == (1, MOST_SPOKEN if self.slot else MOST_FREE):
+            return f"<{name}>"
         most = f"-{self.most}" if self.most > self.least else ""
-        return f"<any {self.least}{most}>"
+        return f"<{name} {self.least}{most}>"
 
 
 @dataclass(frozen=True, slots=True)

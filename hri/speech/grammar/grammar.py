@@ -24,6 +24,7 @@ from hri.speech.grammar.expressions import (
     spell,
 )
 from hri.speech.grammar.fold import Fold
+from hri.speech.grammar.free_slots import spoken_slots
 from hri.speech.grammar.graph import word_graph
 from hri.speech.grammar.matching import Matcher, matcher_of
 from hri.speech.grammar.rules import Rules
@@ -155,7 +156,10 @@ def _quieter(rules: Rules) -> dict[frozenset[str], Grammar]:
 
 
 def _graph(rules: Rules) -> WordGraph:
-    return replace(word_graph(rules.made(build_spoken)), expected=rules.marked("answer"))
+    graph = word_graph(rules.made(build_spoken))
+    slots = rules.made(spoken_slots)
+    found = {word: slots[word] for word in graph.words if word in slots}
+    return replace(graph, expected=rules.marked("answer"), slots=found)
 
 
 def flat_jsgf(grammar: Grammar, rules: Collection[str]) -> str:

@@ -4,10 +4,11 @@ A hand-written tokenizer and recursive-descent parser. Every node knows where it
 mistake says what was expected, and after a mistake reading goes on at the next rule, so that an
 author sees all of them at once.
 
-Four things go beyond the standard: marks in doc comments (`hri.speech.grammar.doc_comments`),
+Five things go beyond the standard: marks in doc comments (`hri.speech.grammar.doc_comments`),
 lists of names from a text file: `import "friends.txt" as <friend>;`, `@extends` in the doc comment
-before `grammar`, and numbers of free words: `<any 1-3>`. What stands in tags, which the
-standard leaves open, is told in `hri.speech.grammar.tags`.
+before `grammar`, numbers of free words: `<any 1-3>`, and free slots: `<name.spoken 1-2>`
+(`hri.speech.grammar.free_slots`). What stands in tags, which the standard leaves open, is told in
+`hri.speech.grammar.tags`.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from hri.speech.grammar.formats import format_of
 from hri.speech.grammar.header import read_header
 from hri.speech.grammar.lexemes import MOST_LEXEMES, TOO_MUCH, Lexeme, Lines, split
 from hri.speech.grammar.tags import TagError, opaque, read_entries
-from hri.speech.grammar.words import free_words, normalize
+from hri.speech.grammar.words import free_words, misspelt_slot, normalize, slot_name
 
 EXTENDS, BEFORE, AFTER = "extends", "before", "after"
 """The doc tag before `grammar` that names a grammar whose commands are understood as well."""
@@ -54,6 +55,7 @@ MOST_ERRORS = 100
 _WEIGHT = re.compile(r"/\s*([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?[fF]?\s*/")
 _PART = r"""[^\s.<>{}"*+|;=/\\()\[\]]+"""
 _GRAMMAR_NAME = re.compile(rf"{_PART}(\.{_PART})*")
+_FREE_WORDS = re.compile(r"<(any\s|[A-Za-z_]\w*\.spoken[\s>])")
 
 _STRAY = {
     "<": ("this rule name has no end", 'write ">" after the name'),
@@ -103,6 +105,15 @@ class NameListImport:
 
 
 @dataclass(frozen=True, slots=True)
+class KnownListImport:
+    """`import "file.txt" as <name.spoken>;`: what a free slot usually is."""
+
+    file: str
+    slot: str
+    span: SourceSpan
+
+
+@dataclass(frozen=True, slots=True)
 class Extension:
     """`/** @extends companion */ grammar mine;`: its commands are understood as well."""
 
@@ -125,6 +136,7 @@ class Document:
     """What may be said behind each, `@after`."""
     imports: list[Import] = field(default_factory=list)
     name_lists: list[NameListImport] = field(default_factory=list)
+    known_lists: list[KnownListImport] = field(default_factory=list)
     rules: list[RuleDefinition] = field(default_factory=list)
     broken: set[str] = field(default_factory=set)
     """Names of rules that could not be read; the mistakes in them are told."""
@@ -365,9 +377,15 @@ class _JsgfReader:
         remedy = 'write import "file.txt" as <name>;'
         if not self._take("as"):
             raise self._unexpected('"as"', remedy)
-        name = self._defined_name(remedy)
         text = re.sub(r"\\(.)", r"\1", file.text[1:-1])
-        self.document.name_lists.append(NameListImport(text, name, self._span_from(start)))
+        written = self._next.text
+        if written.endswith(".spoken>") and (slot := slot_name(written)):
+            self._position += 1
+            known = KnownListImport(text, slot, self._span_from(start))
+            self.document.known_lists.append(known)
+        else:
+            name = self._defined_name(remedy)
+            self.document.name_lists.append(NameListImport(text, name, self._span_from(start)))
         self._expect_end("this import")
 
     def _rule(self, start: int) -> None:
@@ -413,6 +431,8 @@ class _JsgfReader:
             joined = "_".join(name.split())
             if joined != name and _GRAMMAR_NAME.fullmatch(joined):
                 remedy = f"write <{joined}>"
+            if slot := misspelt_slot(name):
+                remedy = f'did you mean "{slot}"?'
             raise self._report(lexeme.start, what, remedy)
         return name
 
@@ -542,7 +562,7 @@ class _JsgfReader:
         return tokens[0] if len(tokens) == 1 else Sequence(tokens, span)
 
     def _reference(self, lexeme: Lexeme) -> Expression:
-        if lexeme.text.split()[0] == "<any":
+        if _FREE_WORDS.match(lexeme.text):
             return self._free_words(lexeme)
         name = self._rule_name(lexeme)
         span = self._span(lexeme)
@@ -552,14 +572,17 @@ class _JsgfReader:
             return Alternative((), (), span)
         return RuleReference(name, span)
 
-    def _free_words(self, lexeme: Lexeme) -> Anything:
-        """`<any 2>` or `<any 1-3>`."""
+    def _free_words(self, lexeme: Lexeme) -> Expression:
+        """`<any 2>` or `<name.spoken 1-3>`, of which the loader finds out whether it is a rule."""
         least, most = free_words(lexeme.text) or (0, 0)
         if not 1 <= least <= most <= LONGEST_FREE:
+            name = lexeme.text[1:].split()[0].removesuffix(">")
             what = f"{lexeme.text[:40]} is not a number of words, 1 to {LONGEST_FREE}"
-            remedy = "write <any 2> for two words, <any 1-3> for one to three"
+            remedy = f"write <{name} 2> for two words, <{name} 1-3> for one to three"
             raise self._report(lexeme.start, what, remedy)
-        return Anything(self._span(lexeme), least, most)
+        span = self._span(lexeme)
+        node = Anything(span, least, most, slot_name(lexeme.text))
+        return RuleReference(node.written[1:-1], span) if node.slot else node
 
     def _group(self, opening: Lexeme, closing: str) -> Expression:
         self._position += 1

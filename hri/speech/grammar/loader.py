@@ -9,6 +9,9 @@ A grammar with `/** @extends companion */` before its `grammar` understands the 
 as well. Its rule hides one of the same name there, and may still call it as
 `<companion.greet>`.
 
+`<name.spoken>` is a free slot (`hri.speech.grammar.free_slots`), beside the rule `<name>` where
+there is one; where a grammar `name` has a public rule `spoken`, it is that rule.
+
 A rule is called by its name alone, by `<colors.red>`, or by `<com.acme.colors.red>`; the last
 needs no import (JSGF 1.0, 3.3). A grammar's own rules hide imported ones of the same name.
 """
@@ -16,6 +19,7 @@ needs no import (JSGF 1.0, 3.3). A grammar's own rules hide imported ones of the
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from glob import escape
@@ -28,6 +32,7 @@ from hri.core.reading import read_text
 from hri.speech.grammar import analysis, paraphrases
 from hri.speech.grammar.encoding import read_source
 from hri.speech.grammar.expressions import (
+    Alternative,
     Anything,
     Expression,
     RuleReference,
@@ -37,10 +42,18 @@ from hri.speech.grammar.expressions import (
 )
 from hri.speech.grammar.framing import framed
 from hri.speech.grammar.grammar import Grammar
-from hri.speech.grammar.jsgf import Document, Import, NameListImport, RuleDefinition, read_jsgf
-from hri.speech.grammar.name_lists import read_names
+from hri.speech.grammar.jsgf import (
+    Document,
+    Import,
+    KnownListImport,
+    NameListImport,
+    RuleDefinition,
+    read_jsgf,
+)
+from hri.speech.grammar.name_lists import read_known, read_names
 from hri.speech.grammar.paraphrases import Paraphrases, read_paraphrases
 from hri.speech.grammar.rules import Rule
+from hri.speech.grammar.words import free_words, misspelt_slot, slot_name
 
 SUFFIXES = paths.suffixes("grammars")
 MOST_FILES = 100
@@ -105,6 +118,22 @@ def _source(text: str, path: Path) -> _Source:
     return _Source(read_jsgf(text, path))
 
 
+class _Target(NamedTuple):
+    """What a name between < and > means."""
+
+    key: str | None
+    """Of the rule; None without one, for free words."""
+    is_free: bool = False
+    """Whether words that nobody listed may stand there, beside those of the rule."""
+
+
+def _free(node: RuleReference) -> Anything:
+    """The free words that a name stands for, such as `any` or `name.spoken 1-2`."""
+    written = f"<{node.name}>"
+    least, most = free_words(written) or (1, 1)
+    return Anything(node.span, least, most, slot_name(written))
+
+
 class _Meaning(NamedTuple):
     """All that a rule depends on beside its definition."""
 
@@ -112,18 +141,20 @@ class _Meaning(NamedTuple):
     is_public: bool
     before: RuleReference | None
     after: RuleReference | None
-    names: tuple[tuple[str, str | None], ...]
-    """The keys of the rules that it refers to; none for free words."""
+    names: tuple[tuple[str, _Target], ...]
+    """What it refers to."""
 
     def rule(self, definition: RuleDefinition, path: Path) -> Rule:
         """The rule that this definition is."""
-        keys = dict(self.names)
+        targets = dict(self.names)
 
         def resolved(node: RuleReference) -> Expression:
-            key = keys[node.name]
-            if key is None:
-                return Anything(node.span)
-            return node if key == node.name else replace(node, name=key)
+            key, is_free = targets[node.name]
+            rule = node if key in (None, node.name) else replace(node, name=key)
+            if not is_free:
+                return rule
+            free = _free(node)
+            return free if key is None else Alternative((rule, free), (1.0, 1.0), node.span)
 
         return Rule(
             key=self.key,
@@ -150,17 +181,19 @@ class _File:
     """Keys of the rules it defines, by name."""
     imported: dict[str, list[str]] = field(default_factory=dict)
     """Keys of imported rules by the names this file may call them; two are one too many."""
-    brought: list[tuple[Import | NameListImport, set[str]]] = field(default_factory=list)
+    brought: list[tuple[Import | NameListImport | KnownListImport, set[str]]] = field(
+        default_factory=list
+    )
     """Its imports, and the keys of what they bring."""
     used: set[str] = field(default_factory=set)
-    """Keys of the rules it refers to."""
+    """Keys of the rules it refers to, and the free slots it has."""
     lost: list[str] = field(default_factory=list)
     """Imported grammars that are missing; any name may be theirs."""
 
     def place(self, span: SourceSpan) -> Place:
         return Place(self.document.path, span.line, span.column)
 
-    def idle_imports(self) -> tuple[Import | NameListImport, ...]:
+    def idle_imports(self) -> tuple[Import | NameListImport | KnownListImport, ...]:
         """Those that bring nothing it refers to."""
         return tuple(use for use, keys in self.brought if self.used.isdisjoint(keys))
 
@@ -177,6 +210,8 @@ class _Loader:
         self._errors: list[AuthoringError] = []
         self._warnings: list[AuthoringError] = []
         self._rules: dict[str, Rule] = {}
+        self._known: dict[str, dict[str, None]] = {}
+        """What free slots usually are, by their names."""
         self._broken: set[str] = set()
         self._files: dict[Path, _File] = {}
         self._pending: list[_File] = []
@@ -206,6 +241,8 @@ class _Loader:
             idle_imports=main.idle_imports(),
             names=frozenset({*main.own, *main.imported}),
             warnings=tuple(self._warnings),
+            known_lists=tuple(main.document.known_lists),
+            known={slot: tuple(texts) for slot, texts in self._known.items()},
             paraphrases=tuple(self._paraphrases()),
         )
         return grammar if self._errors else self._same_as_before(grammar), self._errors
@@ -334,6 +371,9 @@ class _Loader:
         for use in document.name_lists:
             file.brought.append((use, {file.own[use.name]}))
             self._add(file, use.span, self._list_rule(file, use))
+        for known in document.known_lists:
+            file.brought.append((known, {f"{known.slot}.spoken"}))
+            self._know(file, known)
         for number, definition in enumerate(document.rules):
             key = file.own[definition.name]
             before, after = _frames_of(definition, document)
@@ -361,32 +401,71 @@ class _Loader:
     def _list_rule(self, file: _File, use: NameListImport) -> Rule | None:
         """The rule of a list of names; None, and its key is broken, when it cannot be read."""
         key = file.own[use.name]
-        path = next((path for path in _places_of(file.document.path, use.file)), None)
-        if path is None:
-            self._report(file, use.span, *_no_list(file.document.path, use.file))
-        else:
-            try:
+        with self._list_file(file, use) as path:
+            if path is not None:
                 names, errors = read_names(path, use.name)
                 self._sources.append((path, names))
                 self._errors += errors
                 return Rule(key, names, is_public=False, span=use.span, path=path)
-            except AuthoringError as error:
-                self._errors.append(error)
-            except HriError as error:
-                self._report(file, use.span, str(error), "fix the file, or take the import out")
         self._broken.add(key)
         return None
 
-    def _resolve(self, file: _File, node: RuleReference) -> str | None:
-        """The key of the rule that a reference means; unknown ones get a key that nobody has.
+    def _know(self, file: _File, use: KnownListImport) -> None:
+        """Take what a free slot usually is from a file."""
+        with self._list_file(file, use) as path:
+            if path is not None:
+                known, errors = read_known(path)
+                self._sources.append((path, "\n".join(known)))
+                self._errors += errors
+                self._known.setdefault(use.slot, {}).update(dict.fromkeys(known))
 
-        `<any>` is a rule of that name where there is one; None without one, for free words.
+    @contextmanager
+    def _list_file(
+        self, file: _File, use: NameListImport | KnownListImport
+    ) -> Iterator[Path | None]:
+        """The file of an import, None where it is missing; why it cannot be read is told."""
+        path = next((path for path in _places_of(file.document.path, use.file)), None)
+        if path is None:
+            self._report(file, use.span, *_no_list(file.document.path, use.file))
+        try:
+            yield path
+        except AuthoringError as error:
+            self._errors.append(error)
+        except HriError as error:
+            self._report(file, use.span, str(error), "fix the file, or take the import out")
+
+    def _resolve(self, file: _File, node: RuleReference) -> _Target:
+        """What a reference means; the rule of an unknown one is a key that nobody has.
+
+        `<any>` and `<name.spoken>` are rules of these names where there are such.
         """
-        if node.name == "any" and node.name not in file.own and node.name not in file.imported:
-            return None
+        slot = slot_name(f"<{node.name}>")
+        if slot and not self._is_rule(file, node.name):
+            file.used.add(f"{slot}.spoken")
+            if slot not in file.own and slot not in file.imported:
+                return _Target(None, is_free=True)
+            node = replace(node, name=slot)
+        elif node.name == "any" and not {*file.own, *file.imported} & {node.name}:
+            return _Target(None, is_free=True)
+        else:
+            slot = ""
         key = self._key(file, node)
         file.used.add(key)
-        return key
+        return _Target(key, is_free=bool(slot))
+
+    def _is_rule(self, file: _File, name: str) -> bool:
+        """Whether a name that may be a free slot's is the public rule `spoken` of a grammar."""
+        grammar, _, rule = name.rpartition(".")
+        if name in file.imported or (file.document.name == grammar and rule in file.own):
+            return True
+        path = _find_grammar(file.document, grammar, self._root)
+        if path is None or " " in name:
+            return False
+        try:
+            rules = _source(read_source(path).text, path).document.rules
+        except HriError:  # Whatever it is, it has no such rule.
+            return False
+        return any(one.name == rule and one.is_public for one in rules)
 
     def _key(self, file: _File, node: RuleReference) -> str:
         name = node.name
@@ -436,7 +515,10 @@ def _not_public(other: _File, grammar: str, name: str) -> tuple[str, str]:
     if name in other.own:
         remedy = f'write "public" before it in {other.document.path.name}'
         return f'<{name}> of "{grammar}" is not public', remedy
-    return f'"{grammar}" has no public rule <{name}>', did_you_mean(name, other.public_names())
+    remedy = did_you_mean(name, other.public_names())
+    if slot := misspelt_slot(f"{grammar}.{name}"):
+        remedy = f'did you mean "{slot}"?'
+    return f'"{grammar}" has no public rule <{name}>', remedy
 
 
 def _find_grammar(importer: Document, grammar: str, root: Path) -> Path | None:

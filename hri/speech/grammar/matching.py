@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import difflib
 import itertools
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum, auto
 from functools import cached_property
@@ -31,16 +31,24 @@ from hri.speech.grammar.automaton import (
     Defer,
     Enter,
     Leave,
+    Take,
     build,
     build_as_written,
     build_spoken,
 )
 from hri.speech.grammar.denial import is_denied
+from hri.speech.grammar.free_slots import Limits, limits
 from hri.speech.grammar.numerals import sayings
 from hri.speech.grammar.rules import Rules
-from hri.speech.grammar.spellings import contracted_forms, spellings
+from hri.speech.grammar.spellings import (
+    Spelling,
+    as_it_stands,
+    contracted_forms,
+    longest_of,
+    spellings,
+)
 from hri.speech.grammar.tags import TagEntry, Value, are_same, evaluate
-from hri.speech.grammar.words import ANY, typed
+from hri.speech.grammar.words import ANY, as_typed, typed
 
 MOST_WORDS = 200
 """A longer text is not a command."""
@@ -48,6 +56,8 @@ MOST_PARSES = 20
 """Readings of one sentence that are listed."""
 MOST_FREE = 200
 """Readings of one sentence that are looked at for the one with the fewest free words."""
+MOST_TRIED = 500
+"""Readings of one sentence by one rule that are looked at for one whose free slots fit."""
 MOST_COMPARED = 500
 """Words that may follow; of more, only those much like the wrong one are compared with it."""
 LEAST_ALIKE = 0.75
@@ -83,6 +93,20 @@ class Tree:
 
 
 @dataclass(frozen=True, slots=True)
+class SlotWords:
+    """Words of a sentence that stand in a free slot."""
+
+    name: str
+    """Of the slot, and of the tag that has its text."""
+    text: str
+    """As they were typed: in capitals and small letters, with one space between."""
+    start: int
+    """The number of the first word in the sentence, from 0."""
+    end: int
+    """The number behind the last."""
+
+
+@dataclass(frozen=True, slots=True)
 class Parse:
     """A sentence that the grammar allows."""
 
@@ -93,13 +117,61 @@ class Parse:
     tags: Mapping[str, Value] = field(default_factory=dict)
     tree: Tree = field(default_factory=lambda: Tree("", 0, 0, ()))
     free: tuple[int, ...] = ()
-    """The numbers of its words that `<any>` stands for, from 0."""
+    """The numbers of its words that `<any>` and free slots stand for, from 0."""
     entries: Groups = field(default=(), repr=False, compare=False)
     """All tags of its words, in the order in which they take effect."""
+    ends: tuple[int, ...] = field(default=(), repr=False, compare=False)
+    """For each group of `entries`: how many words had been said when it took effect."""
+    slots: tuple[SlotWords, ...] = ()
+    """The words of its free slots, in order."""
 
-    def means_the_same(self, other: Parse) -> bool:
-        """Whether both have the same rule and tags."""
-        return self.rule == other.rule and are_same(self.tags, other.tags)
+    def tag_of(self, word: int) -> str:
+        """The tag that a word, by its number, gives its value; empty for one that gives none.
+
+        It is the next one that takes effect: in "to the left {side=left}" all three words give it.
+        """
+        following = (
+            group for group, end in zip(self.entries, self.ends, strict=True) if end > word
+        )
+        name = next((entry.name for group in following for entry in group), "")
+        taken = {
+            taken: entry.name for group in self.entries for entry in group for taken in entry.takes
+        }
+        while name not in self.tags and name in taken:
+            name = taken.pop(name)
+        return name if name in self.tags else ""
+
+    @property
+    def around(self) -> tuple[int, ...]:
+        """The numbers of its words that `<any>` stands for: those of free slots are a value."""
+        taken = {place for slot in self.slots for place in range(slot.start, slot.end)}
+        return tuple(place for place in self.free if place not in taken)
+
+    @property
+    def as_typed(self) -> str:
+        """The text with the words of free slots as they were typed."""
+        words = self.text.split()
+        for slot in reversed(self.slots):
+            words[slot.start : slot.end] = [slot.text]
+        return " ".join(words)
+
+    def means_the_same(self, other: Parse, *, beside_slots: bool = False) -> bool:
+        """Whether both have the same rule and tags, or the same but for the words of free slots."""
+        if self.rule != other.rule or not beside_slots or not (self.slots or other.slots):
+            return self.rule == other.rule and are_same(self.tags, other.tags)
+        return are_same(_beside_slots(self), _beside_slots(other))
+
+
+def _beside_slots(found: Parse) -> dict[str, Value]:
+    """The tags of a sentence if its free slots had no words."""
+    taken = {_set_by(slot) for slot in found.slots}
+    return evaluate(
+        (TagEntry(group[0].name, "=", ""),) if group in taken else group for group in found.entries
+    )
+
+
+def _set_by(slot: SlotWords) -> tuple[TagEntry, ...]:
+    return (TagEntry(slot.name, "=", slot.text),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +192,7 @@ class Refusal:
 
 def matcher_of(grammar: Rules) -> Matcher:
     """What follows the sentences of a grammar. Raises what `build` raises."""
-    return Matcher(grammar.made(build))
+    return Matcher(grammar.made(build), grammar.made(limits))
 
 
 def as_spoken(grammar: Rules) -> Matcher:
@@ -145,7 +217,7 @@ def parse(
     those of `otherwise` count, one collection after the other; the sentence is followed only once.
     Raises AuthoringError where `Grammar.automaton` does.
     """
-    return next(grammar.made(matcher_of).readings(typed(text), rules, *otherwise), None)
+    return next(grammar.made(matcher_of).readings(text, rules, *otherwise), None)
 
 
 def parses(
@@ -159,9 +231,7 @@ def parses(
     """
     found: dict[object, Parse] = {}
     fewest = MOST_WORDS
-    for reading in itertools.islice(
-        grammar.made(matcher_of).readings(typed(text), rules), 10 * limit
-    ):
+    for reading in itertools.islice(grammar.made(matcher_of).readings(text, rules), 10 * limit):
         fewest = min(fewest, len(reading.free))
         if len(reading.free) > fewest:
             break
@@ -173,10 +243,10 @@ def parses(
 
 
 def different(readings: Iterable[Parse]) -> tuple[Parse, ...]:
-    """The first of those that mean the same."""
+    """The first of those that mean the same, or that differ only in the words of free slots."""
     found: list[Parse] = []
     for reading in readings:
-        if not any(reading.means_the_same(other) for other in found):
+        if not any(reading.means_the_same(other, beside_slots=True) for other in found):
             found.append(reading)
     return tuple(found)
 
@@ -204,11 +274,18 @@ def departure(grammar: Rules, text: str) -> Refusal | None:
     forms = matcher.forms(typed(text)[: MOST_WORDS + 1])
     words, state, position = max(map(matcher.followed, forms), key=lambda way: way[2])
     if position == len(words) <= MOST_WORDS and state.is_final and words:
-        return None
+        return _unfit(grammar, words)
     word = words[position] if position < len(words) else ""
     expected = state.expected()
     near = _near(word, expected)
     return Refusal(" ".join(words[:position]), word, expected, _remedy(word, near), near)
+
+
+def _unfit(grammar: Rules, words: list[str]) -> Refusal | None:
+    """The refusal of words that stand where free ones may, and do not fit the limits of a slot."""
+    if not grammar.made(matcher_of).has_limits:
+        return None
+    return Refusal(" ".join(words[:-1]), words[-1], (), "its slot does not take these words")
 
 
 def _remedy(word: str, near: str) -> str:
@@ -293,7 +370,7 @@ class State:
 
 _Ways = dict[int, list[int]]
 """The arcs that leave each node and lead to the end of the sentence."""
-_Followed = tuple[list[str], list[_Ways]]
+_Followed = tuple[Spelling, list[_Ways]]
 """A sentence, and the ways through it before each word and at its end."""
 
 
@@ -305,6 +382,8 @@ class _Said(IntEnum):
     FREE = auto()
 
 
+_Span = tuple[str, int, int]
+"""The name of a slot, and the numbers of its first word and of the one behind its last."""
 _History = tuple["_History | None", _Said, Actions]
 """The steps so far, the last one first: its kind of word, and its actions."""
 
@@ -313,11 +392,38 @@ def _listed_words(parse: Parse) -> int:
     return len(parse.text.split()) - len(parse.free)
 
 
+class Letters:
+    """Knows how the words of a text were typed, in capitals and small letters."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    @cached_property
+    def _typed(self) -> list[str]:
+        return as_typed(self._text)
+
+    def of(self, form: Spelling, start: int, end: int) -> str:
+        """Some words of a form of the text as they were typed.
+
+        Where a typed word stands for more of the form than these, they are given as they stand.
+        """
+        words, origins = form
+        begin, behind = origins[start][0], origins[end - 1][1]
+        is_cut = (start > 0 and origins[start - 1][1] > begin) or (
+            end < len(words) and origins[end][0] < behind
+        )
+        return " ".join(words[start:end] if is_cut else self._typed[begin:behind])
+
+
 class Matcher:
     """Follows sentences through an automaton; remembers what it has worked out."""
 
-    def __init__(self, automaton: Automaton) -> None:
+    def __init__(self, automaton: Automaton, limits: Mapping[str, Limits] | None = None) -> None:
+        """`limits` says what may stand in free slots, by their names."""
         self.automaton = automaton
+        self._limits = limits or {}
+        self.has_limits = bool(limits)
+        """Whether the words of any free slot must be such as its author wants."""
         self.words = frozenset(word for word in automaton.words if word not in (None, ANY))
         """All words that are listed."""
         self.is_open = ANY in automaton.words
@@ -369,10 +475,17 @@ class Matcher:
     def _contracted(self) -> dict[str, str]:
         return contracted_forms(self.words)
 
+    @cached_property
+    def _longest(self) -> int:
+        return longest_of(self._contracted)
+
     def forms(self, words: list[str]) -> Iterator[list[str]]:
         """A text as it stands, then what else it may stand for: "2" is "two"."""
-        yield words
-        yield from spellings(words, self.words, self._contracted)
+        return (form.words for form in self._spellings(words))
+
+    def _spellings(self, words: list[str]) -> Iterator[Spelling]:
+        yield as_it_stands(words)
+        yield from spellings(words, self.words, self._contracted, self._longest)
 
     def followed(self, words: list[str]) -> tuple[list[str], State, int]:
         """The words, where they lead, and how many of them fit."""
@@ -384,26 +497,30 @@ class Matcher:
             state, position = step.state, position + 1
         return words, state, position
 
-    def readings(self, words: list[str], *rules: Collection[str] | None) -> Iterator[Parse]:
+    def readings(self, text: str, *rules: Collection[str] | None) -> Iterator[Parse]:
         """What a sentence means, reading by reading, by one collection of rules after the other.
 
         By each of them, each way of taking tags and rules comes once, and the first form of the
         sentence that means something is all that counts.
         """
+        words = typed(text)
         followed = itertools.tee(self._followed_through(words), len(rules))
-        return itertools.chain.from_iterable(map(self._readings, followed, rules))
+        letters = Letters(text)
+        return itertools.chain.from_iterable(
+            self._readings(each, of, letters) for each, of in zip(followed, rules, strict=True)
+        )
 
     def _followed_through(self, words: list[str]) -> Iterator[_Followed]:
-        for form in self.forms(words):
-            if (ways := self._ways(form)) is not None:
+        for form in self._spellings(words):
+            if (ways := self._ways(form.words)) is not None:
                 yield form, ways
 
     def _readings(
-        self, followed: Iterable[_Followed], rules: Collection[str] | None
+        self, followed: Iterable[_Followed], rules: Collection[str] | None, letters: Letters
     ) -> Iterator[Parse]:
         free: list[Parse] = []
         for form, ways in followed:
-            found = self._readings_of(form, ways, rules)
+            found = self._readings_of(form, ways, rules, letters)
             if (first := next(found, None)) is None:
                 continue
             if self.is_open:
@@ -418,15 +535,40 @@ class Matcher:
         yield from sorted(free, key=lambda reading: len(reading.free))
 
     def _readings_of(
-        self, words: list[str], ways: list[_Ways], rules: Collection[str] | None
+        self,
+        form: Spelling,
+        ways: list[_Ways],
+        rules: Collection[str] | None,
+        letters: Letters,
     ) -> Iterator[Parse]:
+        words = form.words
         text = " ".join(words)
         for rule in self._rules_in(ways):
             if rules is None or rule in rules:
-                for history in self._histories(ways, rule):
-                    tree, groups, free = _reading(words, history)
-                    if not is_denied(words, free):
-                        yield Parse(text, rule, evaluate(groups), tree, free, groups)
+                for history in itertools.islice(self._histories(ways, rule), MOST_TRIED):
+                    spans = _slots_in(history, len(words)) if self._has_slots else []
+                    if not self._fit(words, spans):
+                        continue
+                    slots = tuple(
+                        SlotWords(name, letters.of(form, start, end), start, end)
+                        for name, start, end in spans
+                    )
+                    tree, groups, ends, free = _reading(words, history, slots)
+                    found = Parse(text, rule, evaluate(groups), tree, free, groups, ends, slots)
+                    if not is_denied(words, found.around if slots else free):
+                        yield found
+
+    def _fit(self, words: Sequence[str], spans: Iterable[_Span]) -> bool:
+        """Whether the words of free slots are such as their authors want."""
+        return all(
+            self._limits.get(name, Limits(name)).allow(" ".join(words[start:end]))
+            for name, start, end in spans
+        )
+
+    @cached_property
+    def _has_slots(self) -> bool:
+        actions = itertools.chain.from_iterable(self.automaton.actions)
+        return any(isinstance(action, Take) for action in actions)
 
     def _rules_in(self, ways: list[_Ways]) -> list[str]:
         """The public rules that allow a sentence, in the order they were written."""
@@ -535,15 +677,36 @@ class _Open(NamedTuple):
     is_last: bool
 
 
-def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups, tuple[int, ...]]:
-    """The tree, the tags in order, and the numbers of the free words of one way through a
-    sentence.
+def _slots_in(history: _History | None, end: int) -> list[_Span]:
+    """The free slots of one way through a sentence, which has its end behind that many words."""
+    found: list[_Span] = []
+    position, behind = end, None
+    while history is not None:
+        history, said, actions = history
+        if said is _Said.NOTHING:
+            continue
+        position -= 1
+        for action in actions:
+            if isinstance(action, Take):
+                behind = behind or position + 1
+                if action.is_first:
+                    found.append((action.slot, position, behind))
+                    behind = None
+    return found[::-1]
+
+
+def _reading(
+    words: list[str], history: _History | None, slots: Iterable[SlotWords]
+) -> tuple[Tree, Groups, tuple[int, ...], tuple[int, ...]]:
+    """The tree, the tags in order, the ends of their words, and the numbers of the free words of
+    one way through a sentence.
     """
     steps: list[tuple[_Said, Actions]] = []
     while history is not None:
         history, said, actions = history
         steps.append((said, actions))
     groups: list[tuple[TagEntry, ...]] = []
+    ends: list[int] = []
     top: list[Tree | str] = []
     children, position = top, 0
     open_rules: list[_Open] = []
@@ -553,6 +716,7 @@ def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups, 
         ended = open_rules.pop()
         if ended.rule is None:
             groups.append(ended.entries)
+            ends.append(position)
         else:
             children = open_rules[-1].children if open_rules else top
             tree = Tree(ended.rule, ended.start, position, tuple(ended.children))
@@ -560,6 +724,7 @@ def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups, 
         return ended
 
     free: list[int] = []
+    taken = iter(slots)
     for said, actions in reversed(steps):
         is_said = said is _Said.NOTHING
         if said is _Said.FREE:
@@ -583,6 +748,11 @@ def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups, 
                     is_said = True
                 if isinstance(action, Apply):
                     groups.append(action.entries)
+                    ends.append(position)
+                elif isinstance(action, Take):
+                    if action.is_first:
+                        groups.append(_set_by(next(taken)))
+                        ends.append(position)
                 else:
                     assert isinstance(action, Leave)
                     while close().is_last:
@@ -594,4 +764,4 @@ def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups, 
         close()
     tree = top[0]
     assert isinstance(tree, Tree)
-    return tree, tuple(groups), tuple(free)
+    return tree, tuple(groups), tuple(ends), tuple(free)

@@ -34,7 +34,7 @@ def with_interrupts_of(grammar: Grammar, other: Rules) -> Grammar:
     for key in lacking:
         if key in own:
             added[key] = _joined(added[key], own.pop(key))
-    return replace(grammar, rules={**added, **own})
+    return replace(grammar, rules={**added, **own}, known=_known(grammar, other))
 
 
 def with_parts_of(grammar: Grammar, other: Rules) -> Grammar:
@@ -46,7 +46,16 @@ def with_parts_of(grammar: Grammar, other: Rules) -> Grammar:
     parts = {key: replace(rule, is_public=False) for key, rule in added.items()}
     meeting = grammar.rules.keys() & parts.keys()
     own = _renamed(grammar.rules, _free_names(meeting, {*grammar.rules, *parts}))
-    return replace(grammar, rules={**own, **parts})
+    return replace(grammar, rules={**own, **parts}, known=_known(grammar, other))
+
+
+def _known(grammar: Rules, other: Rules) -> dict[str, tuple[str, ...]]:
+    """What the free slots of both usually are."""
+    slots = {**grammar.known, **other.known}
+    return {
+        slot: tuple(dict.fromkeys((*grammar.known.get(slot, ()), *other.known.get(slot, ()))))
+        for slot in slots
+    }
 
 
 def _has(grammar: Grammar, rule: Rule) -> bool:

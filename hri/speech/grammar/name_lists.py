@@ -66,6 +66,34 @@ def read_names(path: Path, tag: str) -> tuple[Expression, list[AuthoringError]]:
     return Alternative(tuple(choices), (1.0,) * len(choices), whole), errors
 
 
+def read_known(path: Path) -> tuple[tuple[str, ...], list[AuthoringError]]:
+    """What a free slot usually is: the lower case words of each line, each once, and the mistakes.
+
+    Raises HriError when it cannot be read, AuthoringError when it is not UTF-8 text.
+    """
+    text = read_text(path, "list of names")
+    errors: list[AuthoringError] = []
+    known: dict[str, None] = {}
+    for number, column, line in _lines(text):
+        try:
+            words, _ = _name(line)
+            if "=" in line:
+                raise TagError("a free slot takes its value from what is said", -1)
+            known[" ".join(words)] = None
+        except TagError as error:
+            place = Place(path, number, column)
+            errors.append(AuthoringError(place, str(error), "write words only"))
+        if len(errors) >= MOST_ERRORS:
+            break
+        if len(known) > MOST_NAMES:
+            what = f"more than {MOST_NAMES} names"
+            errors.append(AuthoringError(Place(path, number), what, "shorten the list"))
+            break
+    if not known and not errors:
+        errors.append(AuthoringError(Place(path), "no name in this list", "write one a line"))
+    return tuple(known), errors
+
+
 def _is_new(known: dict[str, tuple[Value, int]], name: str, value: Value, line: int) -> bool:
     """Whether a name stands here for the first time. Raises TagError for a second value."""
     first, at = known.setdefault(name, (value, line))

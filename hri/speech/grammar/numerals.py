@@ -123,6 +123,9 @@ def _amounts(match: re.Match[str]) -> Iterator[str]:
                 if not whole.strip("0"):
                     yield hundredths
         yield f"{amount} {unit}"
+    if decimals in ("0", "00"):  # More of them may be a thousand.
+        yield from (f"{in_words(whole)} {unit}" for unit in CURRENCIES.get(money, ()))
+        yield in_words(whole)
     yield amount
     if not match["whole"]:
         yield amount.removeprefix("zero ")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from hri.core.errors import AuthoringError, Place
 from hri.speech.grammar.doc_comments import MARKS, TOPIC, DocTag
 from hri.speech.grammar.expressions import Expression, RuleReference, SourceSpan, Tagged, walk
-from hri.speech.grammar.jsgf import Import, NameListImport
+from hri.speech.grammar.jsgf import Import, KnownListImport, NameListImport
 from hri.speech.grammar.paraphrases import Paraphrases
 from hri.speech.grammar.tags import TagEntry
 
@@ -97,12 +97,16 @@ class Rules:
     """Keys of rules that are there but could not be read; empty in a grammar that is used."""
     locale: str = ""
     """The language its header names, such as "en" or "en-US"."""
-    idle_imports: tuple[Import | NameListImport, ...] = ()
+    idle_imports: tuple[Import | NameListImport | KnownListImport, ...] = ()
     """Imports of the main file that bring nothing it uses."""
     names: frozenset[str] = frozenset()
     """What the main file may call rules: its own, and imported ones in short and in full."""
     warnings: tuple[AuthoringError, ...] = ()
     """What is odd about how its files are written, and costs no rule."""
+    known_lists: tuple[KnownListImport, ...] = ()
+    """The imports of the main file that say what free slots usually are."""
+    known: Mapping[str, tuple[str, ...]] = field(default_factory=dict, repr=False)
+    """What free slots usually are, by their names: lower case words with one space between."""
     paraphrases: tuple[Paraphrases, ...] = field(default=(), repr=False)
     """Those that lie beside its files."""
     _made: dict[Callable[..., Any], Any] = field(

@@ -8,6 +8,7 @@ from functools import partial, reduce
 from hri.speech.grammar.analysis import RulesByKey
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     RuleReference,
     Sequence,
     Tagged,
@@ -47,6 +48,9 @@ class _Surely(Fold[Step]):
 
     def word(self, node: Token) -> Step:
         return _same
+
+    def anything(self, node: Anything) -> Step:
+        return lambda before: before | {node.slot} if node.slot else before
 
     def reference(self, node: RuleReference) -> Step:
         return partial(self.rule, node.name)

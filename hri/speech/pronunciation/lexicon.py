@@ -78,6 +78,10 @@ class Lexicon:
         parts = (self._dictionary, self._variants, self._guesses, self._names)
         return Lexicon({**self._own, **own}, *parts)
 
+    def of_users(self) -> frozenset[tuple[str, tuple[Phones, ...]]]:
+        """All words of the user, with their phones as they are written."""
+        return frozenset(self._own.items())
+
     def pronunciations(self, word: str) -> tuple[Phones, ...]:
         """All ways to say a word, without stress, the likeliest first.
 

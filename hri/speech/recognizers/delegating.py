@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
@@ -15,6 +15,9 @@ class DelegatingRecognizer(Recognizer):
 
     def start(self, grammar: Grammar) -> None:
         self.engine.start(grammar)
+
+    def know(self, slot: str, sounds: Mapping[str, tuple[str, ...]]) -> None:
+        self.engine.know(slot, sounds)
 
     def mind(self, is_speaking: bool, now: float) -> None:
         self.engine.mind(is_speaking, now)

@@ -135,8 +135,8 @@ class LineDecoder:
         text = segment.text.lower()
         if self._grammar is None:
             return Hypothesis(text, 1.0)
-        if (near := nearest(self._grammar, text, rules=rules)) is not None:
-            return Hypothesis(near.parse.text, 1.0 - 0.5 * near.cost / MOST_COST)
+        if (near := nearest(self._grammar, segment.text, rules=rules)) is not None:
+            return Hypothesis(near.parse.as_typed, 1.0 - 0.5 * near.cost / MOST_COST)
         part = excerpt(self._grammar, text, rules)
         if (meant := paraphrased(self._grammar, text, rules, part)) is not None:
             return Hypothesis(meant.text, OF_PARAPHRASE, paraphrase=text)

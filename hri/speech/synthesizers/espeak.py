@@ -13,7 +13,7 @@ import numpy as np
 
 from hri.core.errors import did_you_mean
 from hri.core.signals import Phoneme, Prosody, Samples, Span, Speech
-from hri.hal.synthesizer import PLAIN, Synthesizer
+from hri.hal.synthesizer import CHILD, MAN, PLAIN, WOMAN, Skill, Synthesizer, VocalTract
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.synthesizers.espeak_library import Event, Mark, Setting, load_espeak
 from hri.speech.synthesizers.espeak_text import reading
@@ -22,6 +22,8 @@ from hri.speech.synthesizers.voice_names import HEART, unknown, voice_named
 LEVEL = 0.85
 """Share of the library's own volume: at 1, numbers in words reach 32,700 of 32,767 with joy."""
 PLAIN_SETTING = Setting()
+CHILDREN = ("anika", "anikarobot")
+"""Variants that speak as children do."""
 SLOWEST, FASTEST = 80, 450
 """Words a minute that the library takes."""
 TELLING_LETTERS = 4
@@ -41,6 +43,7 @@ class EspeakVoice(Synthesizer):
     """
 
     parameters = ("voice", "rate_wpm", "pitch", "lexicon")
+    skills = frozenset({Skill.PACE, Skill.LOUDNESS, Skill.PITCH, Skill.MELODY, Skill.QUESTIONS})
 
     def _open(self) -> None:
         self._library = load_espeak()
@@ -62,6 +65,14 @@ class EspeakVoice(Synthesizer):
             self._missing.add(name)
             self.manager.notice(f"{self.id}: {unknown(name)}; {self._plain.voice} speaks")
         return "" if meant == HEART else meant
+
+    def tract(self, voice: str) -> VocalTract:
+        """A man's, unless the variant is a woman's or a child's."""
+        _, _, variant = (self._meant(voice) or self._plain.voice).casefold().partition("+")
+        found = next((v for v in self._library.variants() if v.id.casefold() == variant), None)
+        if variant in CHILDREN:
+            return CHILD
+        return WOMAN if found is not None and found.gender == "female" else MAN
 
     def _unknown(self, voice: str) -> tuple[str, str]:
         """What is wrong with the name of a voice that is not there, and the remedy."""

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hri.core.errors import NotAvailable
+from hri.hal.synthesizer import Skill
 from hri.speech.pronunciation.lexicon import Lexicon
 from hri.speech.synthesizers.natural_network import RATE, Network
 from hri.speech.synthesizers.natural_text import Reader
@@ -28,6 +29,7 @@ class NaturalVoice(NetworkVoice):
     """
 
     parameters = ("model", "rate_wpm", "lexicon")
+    skills = frozenset(Skill)
 
     @property
     def _name(self) -> str:

@@ -34,6 +34,14 @@ RELEASE = 8
 """Frames in which a phrase that follows without a pause comes back to its own pitch."""
 LATEST_PEAK = 0.6
 """Share of the reach up to which an accent leaves the fall after it enough time to be heard."""
+ACCENT_SEMITONES, ACCENT_DB, ACCENT_SLOWER = 4.0, 3.0, 0.25
+"""By how much what has all the weight is higher, louder, and longer."""
+ABOVE, MOST_RAISED = 1.0, 8.0
+"""Semitones above the highest of the phrase that it reaches, if it takes no more than so many."""
+ACCENT_EDGE = 8
+"""Frames in which an accent comes and goes."""
+AFTER_ACCENT, LOWERED = 0.7, 1.5
+"""How flat a phrase is after its accent, 0 to 1, and how many semitones below its middle."""
 EDGE = 2
 """Frames at each end of a voice."""
 LEAST = 0.5
@@ -105,6 +113,57 @@ def bent(pitch: Curve, is_loud: NDArray[np.bool_], phrases: Sequence[Phrase]) ->
     return np.where(changed & has_voice, bent, pitch).astype(np.float32)
 
 
+def weighted(
+    starts: NDArray[np.float64], accents: Sequence[tuple[int, int, float]], frames: int
+) -> NDArray[np.float64]:
+    """The weight of each frame, -1 to 1, that comes and goes softly with the accents.
+
+    `starts` are the frames in which the symbols begin; an accent has its first symbol, its last +
+    1, and its weight.
+    """
+    weights = np.zeros(frames)
+    for begin, end, weight in accents:
+        first, last = round(float(starts[begin])), round(float(starts[end]))
+        weights[max(first, 0) : max(last, 0)] = weight
+    if not accents:
+        return weights
+    window = np.hanning(ACCENT_EDGE + 2)[1:-1]
+    padded = np.pad(weights, ACCENT_EDGE // 2, mode="edge")
+    return np.convolve(padded, window / window.sum(), "valid")[:frames]
+
+
+def accented(pitch: Curve, weights: NDArray[np.float64], phrases: Sequence[Phrase]) -> Curve:
+    """The curve with accents on what has weight, and flatter behind them, to the end of the phrase.
+
+    What follows the focus of a sentence has no accents (D. R. Ladd, "Intonational
+    Phonology", 2008, chapter 6): else the one would not stand out.
+    """
+    if not weights.any():
+        return pitch
+    semitones = np.log(np.maximum(pitch, 1.0).astype(np.float64)) / SEMITONE
+    has_voice = pitch > VOICED_HZ
+    for begin, end, _ in phrases:
+        voiced = begin + np.flatnonzero(has_voice[begin:end])
+        if not len(voiced):
+            continue
+        curve, weight = semitones[voiced], weights[voiced]
+        middle = float(np.median(curve))
+        strongest = max(float(weight.max()), 0.0)
+        heavy = np.flatnonzero(weight > 0.5 * strongest) if strongest else voiced[:0]
+        own = float(curve[heavy].max()) if len(heavy) else middle
+        missing = float(np.percentile(curve, 95)) + ABOVE - own
+        lift = min(max(ACCENT_SEMITONES, missing), MOST_RAISED)
+        raised = curve + lift * np.maximum(weight, 0.0)
+        flat = np.maximum(-weight, 0.0)
+        if len(heavy):
+            after = np.clip((np.arange(len(curve)) - heavy[-1]) / ACCENT_EDGE, 0.0, 1.0)
+            flat = np.maximum(flat, AFTER_ACCENT * strongest * after)
+        low = np.minimum(curve, middle - LOWERED)
+        semitones[voiced] = raised + flat * (low - raised)
+    changed = np.maximum(np.exp(semitones * SEMITONE), VOICED_HZ + 1)
+    return np.where(has_voice, changed, pitch).astype(np.float32)
+
+
 def _inner(has_voice: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The voice without its edges, where the curve comes from 0 and goes there."""
     padded = np.pad(has_voice, EDGE, mode="edge")
@@ -112,6 +171,16 @@ def _inner(has_voice: NDArray[np.bool_]) -> NDArray[np.bool_]:
     for shift in range(2 * EDGE + 1):
         inner &= padded[shift : shift + len(has_voice)]
     return inner
+
+
+def falling(is_loud: NDArray[np.bool_], phrases: Sequence[Phrase]) -> NDArray[np.float64]:
+    """1 for the frames in which a phrase falls to its end, else 0."""
+    falls = np.zeros(len(is_loud))
+    for begin, end, tone in phrases:
+        loud = begin + np.flatnonzero(is_loud[begin:end])
+        if tone in (Tone.FALL, Tone.STRONG_FALL) and len(loud):
+            falls[max(begin, loud[-1] - round(REACH_S / FRAME_S)) : end] = 1.0
+    return falls
 
 
 def lifted(loudness: NDArray[np.float64], phrases: Sequence[Phrase]) -> NDArray[np.float64]:

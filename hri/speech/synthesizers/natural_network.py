@@ -7,34 +7,60 @@ harmonic and of a noise source, which an inverse Fourier transform makes into so
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import HriError, NotAvailable
 from hri.core.native_path import native_path
-from hri.core.signals import Prosody
+from hri.core.signals import PLAIN_QUALITY, Prosody, VoiceQuality
 from hri.speech.notation.intonation import LAST_S
-from hri.speech.synthesizers.natural_melody import LOUD_DB, VOICED_HZ, Curve, Phrase, bent, lifted
+from hri.speech.synthesizers.natural_melody import (
+    ACCENT_DB,
+    LOUD_DB,
+    VOICED_HZ,
+    Curve,
+    Phrase,
+    accented,
+    bent,
+    falling,
+    lifted,
+    weighted,
+)
+from hri.speech.synthesizers.natural_quality import (
+    DECIBELS,
+    Spectrum,
+    breathed,
+    loudened,
+    smiling,
+    tilted,
+    trembling,
+    voicing,
+)
 from hri.speech.synthesizers.natural_symbols import Sounded, longest_parts
-from hri.speech.synthesizers.natural_text import Ending
+from hri.speech.synthesizers.natural_text import Accent, Ending
 from hri.speech.synthesizers.natural_timing import Timing, timing
 
 Sound = NDArray[np.float32]
-Spectrum = NDArray[np.float32]
-"""Bins of BIN_HZ by frames of 12.5 ms."""
 
 RATE = 24000
 """Samples a second."""
 BIN_HZ = 20.0
 MOST_SYMBOLS = 400
 """What the network is given at once: its sentences were seldom longer when it learned."""
+LONG = 160
+"""Symbols from which on a sentence is made up to one pause after another: the first of it is heard
+while the rest is made.
+"""
+LEAST_FIRST, LEAST = 25, 60
+"""Symbols of the first such part, and of another, at least."""
 SLOWEST, FASTEST = 0.3, 2.5
 """Factors of the rate at which it still speaks well."""
 SEMITONES = 12
@@ -45,6 +71,10 @@ each semitone of another pitch: 3 dB, as a natural logarithm.
 """
 _FRAME, _HOP = 600, 300
 """Samples of one unit of the durations, 25 ms, and of one frame of the spectra."""
+FALLS = 3.0
+"""Semitones for which the end of a falling phrase counts as moved: the network says that its pitch
+falls there, but in the phases of the rest, which are most of the sound, it stays.
+"""
 UNMOVED = 0.05
 """Semitones by which a pitch may be moved without a trace."""
 VOICE_HZ = 4000.0
@@ -55,8 +85,6 @@ _LOBE = 1.5
 """Energy of a harmonic over that of its bin: the window spreads it over three."""
 _NOTHING = -20.0
 """Logarithm of a magnitude that is not heard."""
-_DECIBELS = 20.0 / np.log(10.0)
-"""Of a factor e."""
 _AFTER = 4
 """Frames by which a sound may go on beyond its time."""
 _DURATIONS = "/Clip_output_0"
@@ -85,6 +113,16 @@ class Utterance:
     """One for each symbol that it was given."""
 
 
+class _Line(NamedTuple):
+    """What the network is given at once."""
+
+    symbols: str
+    endings: tuple[Ending, ...]
+    accents: tuple[Accent, ...]
+    is_first: bool
+    """Whether the sentence begins with it."""
+
+
 class Network:
     """Speaks symbols; the same symbols give the same sound. Safe from several threads."""
 
@@ -98,48 +136,77 @@ class Network:
         self._part = lru_cache(maxsize=MOST_KEPT)(self._spoken)
 
     def speak(
-        self, symbols: str, prosody: Prosody, endings: Sequence[Ending] = ()
-    ) -> list[Utterance]:
-        """The symbols in sound, in parts that the network can take at once.
+        self,
+        symbols: str,
+        prosody: Prosody,
+        endings: Sequence[Ending] = (),
+        accents: Sequence[Accent] = (),
+    ) -> Iterator[Utterance]:
+        """The symbols in sound, part by part as it is made.
 
         `endings` are those of the phrases.
         """
-        return [
-            self._part(
-                symbols[begin:end],
-                prosody,
-                tuple(
-                    ending._replace(symbol=ending.symbol - begin)
-                    for ending in endings
-                    if begin < ending.symbol <= end
-                ),
-            )
-            for begin, end in longest_parts(symbols, MOST_SYMBOLS)
-        ]
+        for begin, end in parts(symbols, endings):
+            within = [
+                ending._replace(symbol=ending.symbol - begin)
+                for ending in endings
+                if begin < ending.symbol <= end
+            ]
+            heavy = [
+                Accent(max(accent.begin - begin, 0), min(accent.end, end) - begin, accent.weight)
+                for accent in accents
+                if accent.begin < end and begin < accent.end
+            ]
+            line = _Line(symbols[begin:end], tuple(within), tuple(heavy), begin == 0)
+            yield self._part(line, prosody)
 
-    def _spoken(self, symbols: str, prosody: Prosody, endings: tuple[Ending, ...]) -> Utterance:
-        spectra, pitch, starts = self._framed(symbols)
+    def _spoken(self, line: _Line, prosody: Prosody) -> Utterance:
         factor = 1.0 / min(max(prosody.rate, SLOWEST), FASTEST)
+        spectra, pitch, heard_at = self._paced(line, factor)
+        sound = self._voiced(line, prosody, spectra, pitch, heard_at)
+        sound.flags.writeable = False  # It is kept.
+        pause = line.endings[-1].pause_s if line.endings else LAST_S
+        if pause != LAST_S:
+            pause *= factor
+        breath = BREATH * factor if line.is_first else 0.0
+        return trimmed(sound, _sounded(line.symbols, heard_at), RATE, pause, breath)
+
+    def _paced(
+        self, line: _Line, factor: float
+    ) -> tuple[list[Spectrum], Curve, NDArray[np.float64]]:
+        """Spectra and pitch in time, and the frames in which the symbols begin and end."""
+        spectra, pitch, starts = self._framed(line.symbols)
         pauses = [
             (ending.symbol, round(ending.pause_s * factor * RATE / _HOP))
-            for ending in endings[:-1]
+            for ending in line.endings[:-1]
             if ending.pause_s
         ]
-        timed = timing(symbols, starts, _loudness(spectra, pitch), factor, pauses)
-        spectra, pitch = _drawn(spectra, pitch, timed)
-        heard_at = timed.at(starts)
-        phrases = _phrases(heard_at, endings)
         loudness = _loudness(spectra, pitch)
-        lift = (lifted(loudness, phrases) / _DECIBELS).astype(np.float32)
+        weights = weighted(starts, line.accents, len(loudness))
+        timed = timing(line.symbols, starts, loudness, factor, pauses, weights)
+        return *_drawn(spectra, pitch, timed), timed.at(starts)
+
+    def _voiced(
+        self,
+        line: _Line,
+        prosody: Prosody,
+        spectra: list[Spectrum],
+        pitch: Curve,
+        heard_at: NDArray[np.float64],
+    ) -> Sound:
+        """The sound in the melody and the quality of a voice."""
+        phrases = _phrases(heard_at, line.endings)
+        loudness = _loudness(spectra, pitch)
+        weights = weighted(heard_at, line.accents, len(loudness))
+        gain = lifted(loudness, phrases) + loudened(loudness, phrases, prosody.quality)
+        gain += ACCENT_DB * weights
         for magnitudes in (spectra[0], spectra[2], spectra[3]):
-            magnitudes += lift
-        melody = bent(pitch, loudness > loudness.max() - LOUD_DB, phrases)
-        sound = self._sound(spectra, pitch, melody, pitched(melody, prosody))
-        sound.flags.writeable = False  # It is kept.
-        pause = endings[-1].pause_s if endings else LAST_S
-        if pause > LAST_S:
-            pause *= factor
-        return trimmed(sound, _sounded(symbols, heard_at), RATE, pause, BREATH * factor)
+            magnitudes += (gain / DECIBELS).astype(np.float32)
+        is_loud = loudness > loudness.max() - LOUD_DB
+        melody = bent(accented(pitch, weights, phrases), is_loud, phrases)
+        ends = np.maximum(_semitones(melody, pitch), FALLS * falling(is_loud, phrases))
+        changed = trembling(pitched(melody, prosody), prosody.quality.tremble)
+        return self._sound(spectra, pitch, ends, changed, prosody.quality)
 
     def _framed(self, symbols: str) -> tuple[list[Spectrum], Curve, NDArray[np.float64]]:
         """The network's spectra and pitch, and the frames in which the symbols begin and end."""
@@ -153,23 +220,34 @@ class Network:
         ends = np.cumsum(durations) * (_FRAME / _HOP) - LEAD * RATE / _HOP
         return spectra, pitch, np.array([ends[place] for place in _places(ids)])
 
-    def _sound(self, spectra: list[Spectrum], pitch: Curve, melody: Curve, changed: Curve) -> Sound:
-        """The sound of spectra, as loud at another pitch as at their own.
+    def _sound(
+        self,
+        spectra: list[Spectrum],
+        pitch: Curve,
+        ends: NDArray[np.float64],
+        changed: Curve,
+        quality: VoiceQuality,
+    ) -> Sound:
+        """The sound of spectra, as loud at another pitch and quality as at their own.
 
-        `melody` has the tones of the phrases, `changed` is what is heard.
+        `ends` says how far the tones of the phrases move it, semitones by frame; `changed` is the
+        pitch that is heard.
         """
-        moved = _semitones(changed, pitch)
-        frames = np.flatnonzero(moved > UNMOVED)
+        moved = np.maximum(_semitones(changed, pitch), ends)
+        is_plain = quality == PLAIN_QUALITY
+        frames = np.flatnonzero((moved > UNMOVED) | (not is_plain))
         if not len(frames):
             return self._of_spectra(spectra, pitch)
         loud = _energy(spectra, pitch)
         harmonic, rest = spectra[0].copy(), spectra[3].copy()
         rest[:, frames] -= REST_DAMPING * moved[frames]
         harmonic[:, frames] = envelope(harmonic[:, frames], pitch[frames])
-        ends = np.flatnonzero(_semitones(melody, pitch) > UNMOVED)
-        lost = spectra[3][:, ends], rest[:, ends]
-        harmonic[:, ends] = _with_rest(harmonic[:, ends], *lost, changed[ends])
+        bends = np.flatnonzero(ends > UNMOVED)
+        lost = spectra[3][:, bends], rest[:, bends]
+        harmonic[:, bends] = _with_rest(harmonic[:, bends], *lost, changed[bends])
         shifted = [harmonic, spectra[1], spectra[2], rest, spectra[4]]
+        if not is_plain:
+            shifted = _colored(shifted, quality)
         level = np.sqrt(loud.sum() / max(float(_energy(shifted, changed).sum()), 1e-12))
         return self._of_spectra(shifted, changed) * np.float32(level)
 
@@ -184,6 +262,16 @@ def _semitones(one: Curve, other: Curve) -> NDArray[np.float64]:
     return np.abs(SEMITONES * apart)
 
 
+def _colored(spectra: list[Spectrum], quality: VoiceQuality) -> list[Spectrum]:
+    """Spectra, whose harmonics are an envelope, in the quality of a voice."""
+    harmonic, phase, noise, rest, rest_phase = spectra
+    voiced = voicing(harmonic, rest, BIN_HZ)
+    tilt = tilted(quality.tension, voiced, len(harmonic), BIN_HZ)
+    tract = smiling(harmonic, quality.smile)
+    air = breathed(noise, tract, voiced, quality.breath, BIN_HZ)
+    return [tract + tilt, phase, air, rest + tilt, rest_phase]
+
+
 def _with_rest(harmonic: Spectrum, rest: Spectrum, damped: Spectrum, pitch: Curve) -> Spectrum:
     """The harmonics with what the rest loses: at the end of a sentence most of a vowel is there."""
     low = round(VOICE_HZ / BIN_HZ)
@@ -194,6 +282,19 @@ def _with_rest(harmonic: Spectrum, rest: Spectrum, damped: Spectrum, pitch: Curv
     has_voice = pitch > VOICED_HZ
     filled[:low] = np.where(has_voice, 0.5 * np.log(np.maximum(together, 1e-20)), harmonic[:low])
     return filled
+
+
+def parts(symbols: str, endings: Sequence[Ending]) -> Iterator[tuple[int, int]]:
+    """Where the stretches begin and end that the network is given one after another."""
+    cuts = [0]
+    for ending in endings[:-1] if len(symbols) > LONG else ():
+        least = LEAST if len(cuts) > 1 else LEAST_FIRST
+        is_far = min(ending.symbol - cuts[-1] - least, len(symbols) - ending.symbol - LEAST) >= 0
+        if ending.pause_s and is_far:
+            cuts.append(ending.symbol)
+    for first, last in pairwise([*cuts, len(symbols)]):
+        for begin, end in longest_parts(symbols[first:last], MOST_SYMBOLS):
+            yield first + begin, first + end
 
 
 def _places(ids: list[int | None]) -> list[int]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any, NamedTuple
@@ -46,6 +46,15 @@ class Ending(NamedTuple):
     """Seconds of silence after it, at the usual pace."""
 
 
+class Accent(NamedTuple):
+    """Symbols with more or less weight than the rest."""
+
+    begin: int
+    end: int
+    weight: float
+    """-1 to 1."""
+
+
 @dataclass(frozen=True, slots=True)
 class Sentence:
     """A sentence as the network gets it."""
@@ -63,6 +72,24 @@ class Sentence:
     def written(self) -> list[tuple[str, int]]:
         """Its words, and how many characters of it are before each."""
         return [(match[0], match.start()) for match in _WORD.finditer(self.text)]
+
+    def position_of(self, symbol: int) -> int:
+        """How many of its characters are before the word of a symbol."""
+        return self.written()[self.words[symbol]][1] if symbol < len(self.words) else len(self.text)
+
+    def accents(self, emphases: Iterable[tuple[int, int, float]]) -> tuple[Accent, ...]:
+        """The symbols of those words that characters of the whole text lay weight on."""
+        written = self.written()
+        begins = [place for _, place in written]
+        ends = [place + len(word) for word, place in written]
+        found = []
+        for begin, end, weight in emphases:
+            first = bisect_right(ends, begin - self.position)
+            last = bisect_left(begins, end - self.position)
+            symbols = bisect_left(self.words, first), bisect_left(self.words, last)
+            if symbols[0] < symbols[1]:
+                found.append(Accent(*symbols, weight))
+        return tuple(found)
 
 
 class Reader:

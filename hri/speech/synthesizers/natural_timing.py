@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.speech.synthesizers.natural_melody import ACCENT_SLOWER
 from hri.speech.synthesizers.natural_symbols import VOWEL_SYMBOLS
 
 Frames = NDArray[np.float64]
@@ -47,17 +48,25 @@ class Timing:
 
 
 def timing(
-    symbols: str, starts: Frames, loudness: Frames, factor: float, pauses: Sequence[tuple[int, int]]
+    symbols: str,
+    starts: Frames,
+    loudness: Frames,
+    factor: float,
+    pauses: Sequence[tuple[int, int]],
+    weights: Frames | None = None,
 ) -> Timing:
     """Frames drawn out by `factor`, above 0.
 
     `starts` are the places at which the symbols begin, in frames, and that at which the last one
     ends; `loudness` is in decibels, by frame; `pauses` are the number of the symbol that a phrase
-    ends before, and how many frames of silence follow there.
+    ends before, and how many frames of silence follow there; `weights`, -1 to 1 by frame, make
+    what has weight longer, and the rest keeps its time.
     """
     count = len(loudness)
     is_silent = loudness < loudness.max() - SILENT_DB
     stretch = _stretch(symbols, starts, ~is_silent, factor)
+    if weights is not None:
+        stretch = stretch * (1.0 + ACCENT_SLOWER * weights)
     added = np.zeros(count)
     for symbol, frames in pauses:
         begin, end = _silence(is_silent, starts, symbol)

@@ -15,13 +15,13 @@ from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Phoneme, Prosody, Samples, Span, Speech
 from hri.hal.drivers.resampling import resample
 from hri.hal.resource import Description
-from hri.hal.synthesizer import PLAIN, Synthesizer
+from hri.hal.synthesizer import PLAIN, WOMAN, Synthesizer, VocalTract
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 from hri.speech.pronunciation.phones import Phones
 from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST, EspeakVoice
 from hri.speech.synthesizers.natural_network import Sound, Utterance
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, PAUSE, STRESSES, Sounded, phonemes
-from hri.speech.synthesizers.natural_text import Ending, Sentence
+from hri.speech.synthesizers.natural_text import Accent, Ending, Sentence
 from hri.speech.synthesizers.pace import Pace, remember_slow, slow_file, slow_voices
 from hri.speech.synthesizers.voice_names import HEART, unknown, voice_named
 
@@ -36,8 +36,12 @@ class Speaks(Protocol):
     """A network that makes sound of symbols."""
 
     def speak(
-        self, symbols: str, prosody: Prosody, endings: Sequence[Ending] = ()
-    ) -> list[Utterance]: ...
+        self,
+        symbols: str,
+        prosody: Prosody,
+        endings: Sequence[Ending] = (),
+        accents: Sequence[Accent] = (),
+    ) -> Iterable[Utterance]: ...
 
 
 class Reads(Protocol):
@@ -134,14 +138,22 @@ class NetworkVoice(Synthesizer):
         engine = self._engine
         if engine is None or (prosody.voice and self._other is not None):
             return self._by_other().stream(text, prosody, take, is_wanted)
-        whole = Speech(text, np.zeros(0, np.int16), engine.rate)
+        whole = Speech(text, np.zeros(0, np.int16), engine.rate, saying=object())
         for sentence in engine.reader.sentences(text[:LONGEST_TEXT], prosody.sounds):
+            before = whole
+            for said in self._said(sentence, prosody, engine.rate):
+                if not is_wanted():
+                    break
+                whole = before.then(said, sentence.position)
+                take(whole)
             if not is_wanted():
                 break
-            whole = whole.then(self._said(sentence, prosody, engine.rate), sentence.position)
-            take(whole)
         take(whole)
         return whole
+
+    def tract(self, voice: str) -> VocalTract:
+        meant = self._meant(voice)
+        return self._other.tract(meant) if meant and self._other is not None else WOMAN
 
     def _meant(self, name: str) -> str:
         """The voice of a name, a language or a character; empty: this one, after a notice."""
@@ -153,21 +165,31 @@ class NetworkVoice(Synthesizer):
             self.manager.notice(f"{self.id}: {unknown(name)}; {self._name} speaks")
         return "" if meant == HEART else meant
 
-    def _said(self, sentence: Sentence, prosody: Prosody, rate: int) -> Speech:
+    def _said(self, sentence: Sentence, prosody: Prosody, rate: int) -> Iterator[Speech]:
+        """The sentence, as far as it is made, each time longer."""
         engine = self._engine
         if engine is None or not sentence.symbols.strip():
-            return self._said_by_other(sentence.text, prosody, rate)
+            yield self._said_by_other(sentence.text, prosody, rate)
+            return
+        accents = sentence.accents(prosody.emphases)
+        faster = replace(prosody, rate=prosody.rate * self._wpm / engine.wpm, emphases=())
+        parts: list[Utterance] = []
+        said = Speech("", np.zeros(0, np.int16), rate)
         begun = self.manager.clock.now()
-        faster = replace(prosody, rate=prosody.rate * self._wpm / engine.wpm)
         try:
-            spoken = engine.network.speak(sentence.symbols, faster, sentence.endings)
-            sound, symbols = _joined(spoken, rate)
+            for part in engine.network.speak(sentence.symbols, faster, sentence.endings, accents):
+                self._judge(self.manager.clock.now() - begun, len(part.sound) / rate)
+                parts.append(part)
+                sound, symbols = _joined(parts, rate)
+                samples = _samples(sound, engine.gain * prosody.volume)
+                said = _timed(sentence, samples, rate, symbols)
+                yield said
+                begun = self.manager.clock.now()
         except Exception as error:  # onnxruntime's own, one class for each status
             self._fall_back(f"{self._name} failed ({str(error).partition(chr(10))[0]})")
-            return self._said_by_other(sentence.text, prosody, rate)
-        self._judge(self.manager.clock.now() - begun, len(sound) / rate)
-        samples = _samples(sound, engine.gain * prosody.volume)
-        return _timed(sentence, samples, rate, symbols)
+            rest = sentence.position_of(sum(len(part.symbols) for part in parts))
+            more = self._said_by_other(sentence.text[rest:], prosody, rate)
+            yield said.then(more, rest) if parts else more
 
     def _by_other(self) -> Synthesizer:
         if self._other is None:
@@ -240,7 +262,7 @@ def _timed(sentence: Sentence, samples: Samples, rate: int, symbols: list[Sounde
 
 def _words(sentence: Sentence, symbols: list[Sounded]) -> Iterator[Span]:
     spoken: dict[int, list[Sounded]] = {}
-    for number, symbol in zip(sentence.words, symbols, strict=True):
+    for number, symbol in zip(sentence.words, symbols, strict=False):  # it may be a part
         if symbol.symbol in MNEMONICS or symbol.symbol in STRESSES:
             spoken.setdefault(number, []).append(symbol)
     for number, (text, position) in enumerate(sentence.written()):

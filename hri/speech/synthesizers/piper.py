@@ -22,6 +22,7 @@ import numpy as np
 from hri.core.errors import HriError, NotAvailable
 from hri.core.reading import parse_json, read_text
 from hri.core.signals import Prosody
+from hri.hal.synthesizer import Skill
 from hri.speech.notation.sentences import sentences
 from hri.speech.pronunciation.lexicon import Lexicon
 from hri.speech.pronunciation.phones import Phones
@@ -36,7 +37,7 @@ from hri.speech.synthesizers.natural_network import (
     trimmed,
 )
 from hri.speech.synthesizers.natural_symbols import SPACE, Sounded, longest_parts
-from hri.speech.synthesizers.natural_text import Ending, Sentence, words_read
+from hri.speech.synthesizers.natural_text import Accent, Ending, Sentence, words_read
 from hri.speech.synthesizers.network_voice import Engine, NetworkVoice, gain_of
 
 TRIAL = "ðɪs ɪz hˌaʊ lˈaʊd aɪ spˈiːk."
@@ -62,6 +63,7 @@ class PiperVoice(NetworkVoice):
     """
 
     parameters = ("model", "speaker", "rate_wpm")
+    skills = frozenset({Skill.PACE, Skill.LOUDNESS})
 
     @property
     def _name(self) -> str:
@@ -127,7 +129,11 @@ class PiperNetwork:
         self._speaker = min(speaker, max(settings.speakers - 1, 0))
 
     def speak(
-        self, symbols: str, prosody: Prosody, endings: Sequence[Ending] = ()
+        self,
+        symbols: str,
+        prosody: Prosody,
+        endings: Sequence[Ending] = (),
+        accents: Sequence[Accent] = (),
     ) -> list[Utterance]:
         """The symbols in sound, in parts that the network can take at once.
 

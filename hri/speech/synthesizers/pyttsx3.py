@@ -14,7 +14,7 @@ from hri.core import child
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.wav_file import read_wav
-from hri.hal.synthesizer import PLAIN, Synthesizer
+from hri.hal.synthesizer import PLAIN, Skill, Synthesizer
 from hri.speech.aligner import with_times
 
 _PROGRAM = Path(__file__).with_name("pyttsx3_process.py")
@@ -53,6 +53,7 @@ class Pyttsx3Voice(Synthesizer):
     """Synthesizes in a separate process, times the sounds afterward, and does not support pitch."""
 
     parameters = ("voice", "rate_wpm")
+    skills = frozenset({Skill.PACE, Skill.LOUDNESS})
 
     def _open(self) -> None:
         self._voice = self.description.text("voice")

@@ -123,6 +123,15 @@ def test_voices_are_listed_by_language(capsys):
     assert "German" in capsys.readouterr().out
 
 
+def test_each_voice_says_what_it_cannot_do(capsys):
+    pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
+    assert main(["voices", "--language", "en", "--json"]) == 0
+    cannot = {voice["voice"]: voice["cannot"] for voice in json.loads(capsys.readouterr().out)}
+    assert cannot["heart"] == []
+    assert "emphasis within a sentence" in cannot["en-us"]
+    assert "pitch" not in cannot["en-us"]
+
+
 def test_the_variants_take_a_few_lines_and_no_table(capsys):
     assert main(["voices", "--language", "Korean"]) == 0
     table, variants, characters, engines = capsys.readouterr().out.split("\n\n")

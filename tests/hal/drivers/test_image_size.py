@@ -24,12 +24,20 @@ def test_a_frame_knows_its_size():
 
 
 @pytest.mark.proves("H24")
-@pytest.mark.parametrize("name", ["a.jpg", "a.jpeg", "a.png", "a.JPG"])
+@pytest.mark.parametrize("name", ["a.jpg", "a.jpeg", "a.png", "a.JPG", "a.webp"])
 def test_what_is_written_is_seen_again_in_its_colors(tmp_path, name):
     write_picture(tmp_path / name, RAMP, 0.9)
     again = cv2.cvtColor(cv2.imread(str(tmp_path / name)), cv2.COLOR_BGR2RGB)
     assert np.abs(again.astype(int) - RAMP).mean() < 3
     assert picture_size(tmp_path / name) == (128, 96)
+
+
+@pytest.mark.parametrize("name", ["a.png", "a.webp"])
+def test_what_is_transparent_is_written_exactly(tmp_path, name):
+    image = np.dstack([RAMP, np.tile(np.arange(128, dtype=np.uint8) + 1, (96, 1))])
+    write_picture(tmp_path / name, image)
+    again = cv2.imread(str(tmp_path / name), cv2.IMREAD_UNCHANGED)
+    assert np.array_equal(again[..., [2, 1, 0, 3]], image)
 
 
 @pytest.mark.proves("H24")
@@ -50,7 +58,7 @@ def test_a_quality_out_of_range_is_refused(tmp_path, quality):
 
 
 def test_what_cannot_be_written_is_one_line(tmp_path):
-    with pytest.raises(HriError, match=r'no pictures of the kind "\.gif" - write \.jpg or \.png'):
+    with pytest.raises(HriError, match=r'of the kind "\.gif" - write \.jpg, \.png or \.webp'):
         write_picture(tmp_path / "a.gif", RAMP)
     with pytest.raises(HriError, match="cannot be written: No such file"):
         write_picture(tmp_path / "no" / "a.jpg", RAMP)

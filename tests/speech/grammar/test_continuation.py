@@ -35,6 +35,17 @@ def test_words_that_change_the_rule_or_the_tags_may_follow(write, text, expected
     assert may_go_on(grammar, parse(grammar, text).rule, text, text) is expected
 
 
+def test_words_that_follow_those_of_a_free_slot_may_change_it(write):
+    rules = """
+    public <call> = call <who.spoken> [again {again=true}];
+    public <find> = find <what.spoken> [please];
+    """
+    grammar = load_grammar(write(rules))
+    for who in ("anna", "anna maria", "call"):
+        assert may_go_on(grammar, "call", f"call {who}", f"call {who}")
+    assert not may_go_on(grammar, "find", "find my old cup", "find my old cup")
+
+
 def test_free_words_change_nothing(write):
     rules = """
     /** @anywhere */

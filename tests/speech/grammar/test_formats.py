@@ -100,8 +100,8 @@ def test_files_of_jsgf_are_not_named_without_their_header():
 )
 def test_no_file_keeps_it_looking(piece):
     text = (piece * LOOKED_AT)[:LOOKED_AT] + "\x00"
-    begin = time.perf_counter()
+    begin = time.process_time()
     format_of(text)
     format_of("<?xml" + text)
     format_of("[" + text)
-    assert time.perf_counter() - begin < 1.0
+    assert time.process_time() - begin < 1.0

@@ -353,7 +353,9 @@ def test_a_hundred_thousand_sentences_are_parsed_in_no_time(write):
 
 
 def test_the_vocabulary_is_told(companion):
-    assert {"distance", "angle", "emotion", "eyes", "thing"} == companion.tag_names()
+    told = {"name", "likes", "dislikes", "date", "home", "origin"}
+    told |= {"sister", "brother", "friend", "dog", "cat"}
+    assert {"distance", "angle", "emotion", "eyes", "thing", *told} == companion.tag_names()
     assert {"forward", "ninety"} <= companion.words()
     assert list(companion.sentences_of("move", 2)) == ["go forward", "go forward robot"]
 

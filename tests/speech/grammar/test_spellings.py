@@ -211,3 +211,65 @@ def test_a_refused_text_is_followed_as_far_as_it_goes(companion):
 def test_what_stands_for_nothing_is_refused_as_before(companion, text):
     assert parse(companion, text) is None
     assert nearest(companion, text) is None
+
+
+FORGIVEN = """
+import "things.txt" as <thing>; import <numbers.whole>;
+public <give> = give me <thing>;
+public <pay> = pay <whole> (dollars | euros);
+public <set> = set it to <whole> [meters];
+public <many> = twenty five (things | t-shirts);
+public <cold> = ice cream | hello marie curie | hello jean-luc;
+"""
+THINGS = "one thousand\n1,000 meters\nroom 12 = 12\nIce-Cream\nhot dog\n"
+
+
+@pytest.fixture
+def forgiving(tmp_path, grammar):
+    (tmp_path / "things.txt").write_text(THINGS)
+    return grammar(FORGIVEN)
+
+
+@pytest.mark.parametrize(
+    ("written", "rule", "tags"),
+    [
+        ("give me 1,000", "give", {"thing": "one thousand"}),
+        ("give me 1 000", "give", {"thing": "one thousand"}),
+        ("give me 1,000 meters", "give", {"thing": "1,000 meters"}),
+        ("give me 1000 meters", "give", {"thing": "1,000 meters"}),
+        ("give me one thousand meters", "give", {"thing": "1,000 meters"}),
+        ("Give me Room twelve", "give", {"thing": 12.0}),
+        ("give me ice cream", "give", {"thing": "Ice-Cream"}),
+        ("give me a Hot-Dog", "", {}),
+        ("give me Hot-Dog", "give", {"thing": "hot dog"}),
+        ("pay $1,000", "pay", {"number": 1000.0}),
+        ("pay $ 5", "pay", {"number": 5.0}),
+        ("pay 5 $", "pay", {"number": 5.0}),
+        ("pay 5\N{EURO SIGN}.", "pay", {"number": 5.0}),
+        ("pay $5.00", "pay", {"number": 5.0}),
+        ("set it to 12,345 meters", "set", {"number": 12345.0}),
+        ("set it to 1.000 meters", "", {}),  # one, or a thousand
+        ("set it to 1,0 meters", "", {}),
+        ("twenty-five things", "many", {}),
+        ("Twenty\N{EN DASH}five things", "many", {}),
+        ("25 T shirts", "many", {}),
+        ("25 tshirts", "many", {}),
+        ("ice-cream", "cold", {}),
+        ("Ice\N{NON-BREAKING HYPHEN}Cream!", "cold", {}),
+        ("hello Marie-Curie", "cold", {}),
+        ("HELLO Jean Luc", "cold", {}),
+        ("hello JEAN-LUC?", "cold", {}),
+        ("ice-", "", {}),
+        ("- ice - cream -", "cold", {}),
+    ],
+)
+def test_numbers_hyphens_signs_and_capitals_are_forgiven(forgiving, written, rule, tags):
+    found = parse(forgiving, written)
+    assert (found.rule, dict(found.tags)) == (rule, tags) if rule else found is None
+
+
+@given(st.text("0123456789,.-$\N{EURO SIGN} abi", max_size=30))
+def test_no_number_is_too_odd(text):
+    companion = load_grammar("companion")
+    parse(companion, text)
+    parse(companion, f"go forward {text} meters")

@@ -388,3 +388,48 @@ def test_no_phrase_is_taken_of_two_and_beside_too_many_words(
     assert detail in heard.detail
     if detail == "as likely":
         assert sorted(heard.choices) == ["turn left", "turn right"]
+
+
+@pytest.fixture(scope="module")
+def introduced(tmp_path_factory):
+    """An engine with a free slot, whose list has a few names."""
+    folder = tmp_path_factory.mktemp("slots")
+    (folder / "some_names.txt").write_text("anna\npeter\nmaria\n")
+    (folder / "met.jsgf").write_text(
+        '#JSGF V1.0;\ngrammar met;\nimport "some_names.txt" as <name.spoken>;\n'
+        "public <met> = my name is <name.spoken 1-2> | call <name.spoken> now;\n"
+        "public <hello> = hello robot;\n"
+    )
+    manager = ResourceManager((), FakeClock())
+    recognizer = CtcRecognizer(Description("ears", "Hri.Ctc"), manager)
+    recognizer.activate()
+    recognizer.start(load_grammar(folder / "met.jsgf"))
+    yield recognizer
+    recognizer.deactivate()
+    manager.close()
+
+
+def test_a_listed_name_is_heard_in_a_free_slot(introduced):
+    heard = introduced.decode(piece(said("my name is Peter"), number=301))
+    assert heard.text == "my name is peter"
+    assert [(slot.name, slot.text, slot.phones) for slot in heard.slots] == [
+        ("name", "peter", ("P", "IY", "T", "ER"))
+    ]
+    assert heard.confidence >= ACCEPTED
+
+
+def test_another_name_is_spelled_and_known_again_when_it_was_taught(introduced):
+    samples = said("my name is Boravan")
+    heard = introduced.decode(piece(samples, number=302))
+    (slot,) = heard.slots
+    assert heard.text == f"my name is {slot.text}"
+    assert slot.text not in ("", "anna", "peter", "maria")
+    introduced.know("name", {"boravan": slot.phones})
+    assert introduced.decode(piece(samples, number=303)).text == "my name is boravan"
+    introduced.know("name", {})
+    assert introduced.decode(piece(samples, number=304)).text == heard.text
+
+
+def test_a_sentence_without_slot_has_none(introduced):
+    heard = introduced.decode(piece(said("hello robot"), number=305))
+    assert (heard.text, heard.slots) == ("hello robot", ())

@@ -9,7 +9,7 @@ from hypothesis import given, settings, strategies as st
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError
 from hri.core.signals import EmotionState, Prosody, Speech
-from hri.emotion.display import felt_now, load_display
+from hri.emotion.display import load_display
 from hri.emotion.emotions import NAMES
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
@@ -171,7 +171,7 @@ def semitones(hertz):
 @pytest.mark.parametrize("name", NAMES)
 def test_no_emotion_overdrives_the_voice(voice, name):
     state = EmotionState(name, 1.0, 0.0, 0.0, 0.0, {name: 1.0})
-    speech = voice.synthesize(TEXT, load_display().prosody(felt_now(state)))
+    speech = voice.synthesize(TEXT, load_display().prosody(state))
 
     loudest = np.abs(speech.samples.astype(int)).max()
     assert 8000 < loudest < 32000, "neither clipped nor lost in the noise of a room"

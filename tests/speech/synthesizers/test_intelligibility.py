@@ -9,7 +9,7 @@ import pytest
 
 from hri.core.clock import FakeClock
 from hri.core.signals import EmotionState
-from hri.emotion.display import felt_now, load_display
+from hri.emotion.display import load_display
 from hri.hal.drivers.resampling import resample
 from hri.hal.recognizer import Segment
 from hri.hal.resource import Description
@@ -48,7 +48,7 @@ def voice():
 @pytest.mark.parametrize("name", ["joy", "sadness", "anger", "fear", "surprise"])
 def test_what_is_said_with_an_emotion_is_recognized(voice, ears, name):
     state = EmotionState(name, 1.0, 0.0, 0.0, 0.0, {name: 1.0})
-    prosody = load_display().prosody(felt_now(state))
+    prosody = load_display().prosody(state)
     heard = []
     for command in COMMANDS:
         speech = voice.synthesize(command, prosody)

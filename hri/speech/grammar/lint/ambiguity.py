@@ -7,7 +7,7 @@ from collections.abc import Generator, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 
-from hri.speech.grammar.automaton import FINAL, START, Apply, Defer
+from hri.speech.grammar.automaton import FINAL, START, Apply, Defer, Take
 from hri.speech.grammar.doc_comments import ANY_COMMAND
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import Matcher, Parse, as_written, parses
@@ -57,7 +57,7 @@ def ambiguities(grammar: Grammar) -> Iterator[Ambiguity]:
 def _can_differ(grammar: Grammar) -> bool:
     """Whether there is more than one thing that can be meant: two rules, or tags."""
     actions = {action for actions in grammar.automaton.actions for action in actions}
-    has_tags = any(isinstance(action, Apply | Defer) for action in actions)
+    has_tags = any(isinstance(action, Apply | Defer | Take) for action in actions)
     return has_tags or len(grammar.public_rules) > 1
 
 
@@ -85,7 +85,7 @@ def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
             rules <= parts or any(len(rules & some) == 1 for some in (answers, after, typed))
         )
         are_apart |= _follow_others(grammar, rules)
-        if not are_apart and not other.means_the_same(first):
+        if not are_apart and not other.means_the_same(first, beside_slots=True):
             return Ambiguity(sentence, first, other)
     return None
 

@@ -35,8 +35,8 @@ FARTHEST = 0.25
 _BLOCK = 512
 
 _NUMBERS = {phone: number for number, phone in enumerate(PHONES)}
-_COSTS = np.array([[distance(one, other) for other in PHONES] for one in PHONES], np.float32)
-_LIKENESS = np.exp(-_COSTS / 0.15).astype(np.float32)
+COSTS = np.array([[distance(one, other) for other in PHONES] for one in PHONES], np.float32)
+_LIKENESS = np.exp(-COSTS / 0.15).astype(np.float32)
 """How much of one phone counts as another one."""
 
 
@@ -52,11 +52,16 @@ class SoundAlike:
     @property
     def difference(self) -> tuple[str, str]:
         """The words in which they differ, without those they share."""
-        changes = differing(self.first.text.split(), self.second.text.split())
-        one, other = (
-            " ... ".join(" ".join(words) for words in side) for side in zip(*changes, strict=True)
-        )
-        return one, other
+        return difference(self.first.text, self.second.text)
+
+
+def difference(one: str, other: str) -> tuple[str, str]:
+    """The words in which two texts differ, without those they share."""
+    changes = differing(one.split(), other.split())
+    first, second = (
+        " ... ".join(" ".join(words) for words in side) for side in zip(*changes, strict=True)
+    )
+    return first, second
 
 
 Change = tuple[Words, Words]
@@ -99,9 +104,9 @@ def sound_alikes(
     """
     words = [reading.text.split() for reading in readings]
     examples: dict[tuple[Change, ...], tuple[int, int]] = {}
-    for one, other in _candidates(readings, [_spoken(said, lexicon) for said in words]).tolist():
+    for one, other in _candidates(readings, [phones_of(said, lexicon) for said in words]).tolist():
         examples.setdefault(differing(words[one], words[other]), (one, other))
-    distances = _distances(list(examples), lexicon)
+    distances = distances_of(list(examples), lexicon)
     near = [changes for changes in examples if distances[changes] <= farthest]
     found: list[SoundAlike] = []
     for changes in sorted(_simplest(near), key=distances.__getitem__):
@@ -127,9 +132,13 @@ def _simplest(differences: Iterable[tuple[Change, ...]]) -> list[tuple[Change, .
     return kept
 
 
-def _spoken(words: Sequence[str], lexicon: Lexicon) -> NDArray[np.int32]:
+def phones_of(words: Sequence[str], lexicon: Lexicon) -> NDArray[np.int32]:
     """The numbers of the phones of some words, each said in its likeliest way."""
-    phones = [phone for word in words for phone in lexicon.pronunciations(word)[0]]
+    return numbered([phone for word in words for phone in lexicon.pronunciations(word)[0]])
+
+
+def numbered(phones: Sequence[str]) -> NDArray[np.int32]:
+    """Phones as numbers: their places in PHONES."""
     return np.array([_NUMBERS[phone] for phone in phones[:LONGEST]], np.int32)
 
 
@@ -140,7 +149,7 @@ def _candidates(
     if not readings:
         return np.empty((0, 2), np.int32)
     meanings = _meaning_numbers(readings)
-    counts = np.array([_counted(phones) for phones in spoken], np.float32)
+    counts = counted(spoken)
     squares = (counts**2).sum(axis=1)
     found: list[NDArray[np.int32]] = []
     for start in range(0, len(readings), _BLOCK):
@@ -161,13 +170,17 @@ def _meaning_numbers(readings: Iterable[Parse]) -> NDArray[np.int32]:
     return np.array([numbers.setdefault(key, len(numbers)) for key in keys], np.int32)
 
 
-def _counted(phones: NDArray[np.int32]) -> NDArray[np.float32]:
-    """How often each phone, or one like it, is in each third of a sentence. [3 x 39]"""
-    thirds = np.array_split(phones, 3)
-    return np.concatenate([_LIKENESS[third].sum(axis=0) for third in thirds])
+def counted(spoken: Sequence[NDArray[np.int32]]) -> NDArray[np.float32]:
+    """How often each phone, or one like it, is in each third of some words. [words, 3 x 39]"""
+    counts = np.zeros((len(spoken), 3, len(PHONES)), np.float32)
+    for row, phones in enumerate(spoken):
+        thirds = np.repeat(np.arange(3), [(len(phones) + spare) // 3 for spare in (2, 1, 0)])
+        np.add.at(counts[row], (thirds, phones), 1.0)
+    alike: NDArray[np.float32] = counts @ _LIKENESS
+    return alike.reshape(len(spoken), -1)
 
 
-def _distances(
+def distances_of(
     differences: Sequence[tuple[Change, ...]], lexicon: Lexicon
 ) -> dict[tuple[Change, ...], float]:
     """The cost of all changes of each difference, over the phones of their longer sides."""
@@ -175,8 +188,8 @@ def _distances(
     costs: dict[Change, tuple[float, int]] = {}
     for start in range(0, len(changes), _BLOCK):
         block = changes[start : start + _BLOCK]
-        first, first_lengths = _padded([_spoken(one, lexicon) for one, _ in block])
-        second, second_lengths = _padded([_spoken(other, lexicon) for _, other in block])
+        first, first_lengths = padded([phones_of(one, lexicon) for one, _ in block])
+        second, second_lengths = padded([phones_of(other, lexicon) for _, other in block])
         found = _table(first, second)[first_lengths, second_lengths, np.arange(len(block))]
         longer = np.maximum(first_lengths, second_lengths)
         costs |= zip(block, zip(found.tolist(), longer.tolist(), strict=True), strict=True)
@@ -194,7 +207,7 @@ def _table(first: NDArray[np.int32], second: NDArray[np.int32]) -> NDArray[np.fl
     table[:, 0] = DROPPED * np.arange(rows + 1)[:, None]
     table[0] = DROPPED * np.arange(columns + 1)[:, None]
     for row in range(1, rows + 1):
-        costs = _COSTS[first[:, row - 1, None], second].T
+        costs = COSTS[first[:, row - 1, None], second].T
         for column in range(1, columns + 1):
             said_too_much = np.minimum(table[row - 1, column], table[row, column - 1]) + DROPPED
             changed = table[row - 1, column - 1] + costs[column - 1]
@@ -202,7 +215,7 @@ def _table(first: NDArray[np.int32], second: NDArray[np.int32]) -> NDArray[np.fl
     return table
 
 
-def _padded(
+def padded(
     sequences: Sequence[NDArray[np.int32]],
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """The sequences as one array with zeros behind the short ones, and their lengths."""

@@ -19,12 +19,14 @@ from hri.speech.grammar.expressions import (
     walk,
 )
 from hri.speech.grammar.grammar import Grammar
-from hri.speech.grammar.jsgf import NameListImport
+from hri.speech.grammar.jsgf import Import, NameListImport
 from hri.speech.grammar.lint.ambiguity import ambiguities
 from hri.speech.grammar.lint.audibility import heard_badly
 from hri.speech.grammar.lint.confusion import sound_alikes
 from hri.speech.grammar.lint.finding import SEVERITIES, Finding, hint, warning
+from hri.speech.grammar.lint.free_slots import odd_slots
 from hri.speech.grammar.lint.operators import idle_operators
+from hri.speech.grammar.lint.outside_words import heard_as_listed
 from hri.speech.grammar.lint.overwriting import overwritten
 from hri.speech.grammar.matching import Parse, parse
 from hri.speech.grammar.phrases import Phrases, PhrasesOf, Words, phrases_of_rules
@@ -71,6 +73,7 @@ def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
         *_idle_marks(grammar),
         *_unused(grammar),
         *_idle_imports(grammar),
+        *odd_slots(grammar),
         *overwritten(grammar, _own_rules(grammar)),
         *idle_operators(grammar, _own_rules(grammar)),
         *_never_said(grammar),
@@ -84,7 +87,7 @@ def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
         sounding = heard_badly(grammar, said, lexicon)
         findings += sounding
         if not any(finding.severity == "error" for finding in sounding):
-            findings += _careful(grammar, lexicon)
+            findings += [*_careful(grammar, lexicon), *heard_as_listed(grammar, lexicon)]
     return findings
 
 
@@ -147,8 +150,9 @@ def _unused(grammar: Grammar) -> Iterator[Finding]:
 def _idle_imports(grammar: Grammar) -> Iterator[Finding]:
     for use in grammar.idle_imports:
         place = Place(grammar.path, use.span.line, use.span.column)
-        if isinstance(use, NameListImport):
-            yield warning(place, f"<{use.name}> is not used by any rule", "use it, or take it out")
+        if not isinstance(use, Import):
+            name = use.name if isinstance(use, NameListImport) else f"{use.slot}.spoken"
+            yield warning(place, f"<{name}> is not used by any rule", "use it, or take it out")
         else:
             what = f"no rule uses <{use.grammar}.{use.rule}>, and what is imported is not a command"
             name = "name" if use.rule == "*" else use.rule

@@ -11,6 +11,7 @@ from typing import Final
 from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     Repeat,
     RuleReference,
@@ -144,6 +145,9 @@ class EffectOf(Fold[Effect]):
 
     def word(self, node: Token) -> Effect:
         return NOTHING
+
+    def anything(self, node: Anything) -> Effect:
+        return Effect({node.slot: VARIED}, {node.slot: True}) if node.slot else NOTHING
 
     def reference(self, node: RuleReference) -> Effect:
         return self._known.get(node.name, NOTHING)

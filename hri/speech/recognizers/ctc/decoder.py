@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import compress
 
 import numpy as np
 
 from hri.core.signals import Samples
-from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segment
+from hri.hal.recognizer import Alternative, Grammar, HeardSlot, HeardWord, Hypothesis, Segment
 from hri.speech.grammar.words import free_words, listed, said
 from hri.speech.language import require_english
 from hri.speech.pronunciation.lexicon import load_lexicon
@@ -37,6 +38,8 @@ from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.ranking import ranked
 from hri.speech.recognizers.ctc.rival_words import Rivals
 from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.spoken_words import SpokenWords, Taught
+from hri.speech.recognizers.ctc.word_evidence import word_chances
 from hri.speech.recognizers.ctc.word_habits import Habits
 from hri.speech.recognizers.endpointed import EndpointedRecognizer
 from hri.speech.understanding import SILENT_AFTER
@@ -55,6 +58,9 @@ SHORT = 4
 """Letters of an answer that is short."""
 STILL = 1600
 """Samples of silence at the end of a piece that do not make a hesitation an earlier one."""
+
+HearSlots = Callable[[Path, Floats], Mapping[int, HeardSlot]]
+"""Finds what was said in the free slots of a path, by their places, in scores [frames, classes]."""
 
 
 @dataclass
@@ -106,18 +112,25 @@ class CtcRecognizer(EndpointedRecognizer):
         self._network = load_network(self.description.text("weights"))
         self._work = threading.Lock()
         self._search: Search | None = None
+        self._taught: Mapping[str, Taught] = {}
         self._progress: Progress | None = None
         self._early: Early | None = None
 
     def start(self, grammar: Grammar) -> None:
         require_english(grammar, self.manager.notice)
         # The same lexicon for both: it may have changed since the engine was opened.
-        lexicon = Habits(load_lexicon())
-        search, rivals = Search(compiled(grammar.graph(), lexicon)), Rivals(lexicon)
+        lexicon = load_lexicon()
+        habits = Habits(lexicon)
+        graph = grammar.graph()
+        search, rivals = Search(compiled(graph, habits)), Rivals(habits)
+        spoken = SpokenWords(graph.slots, lexicon, habits)
         with self._work:
-            self._search, self._rivals = search, rivals
+            self._search, self._rivals, self._spoken = search, rivals, spoken
             self._progress = None
             self._early = None
+
+    def know(self, slot: str, sounds: Mapping[str, tuple[str, ...]]) -> None:
+        self._taught = {**self._taught, slot: tuple(sounds.items())}
 
     def advance(self, segment: Segment, rules: Collection[str] | None = None) -> str:
         active = None if rules is None else frozenset(rules)
@@ -172,6 +185,9 @@ class CtcRecognizer(EndpointedRecognizer):
             self._early = early
         return early.hypothesis
 
+    def _hear_slots(self, path: Path, scores: Floats) -> Mapping[int, HeardSlot]:
+        return self._spoken.heard(path, scores, self._taught)
+
     def _decoded(
         self,
         sound: Sound,
@@ -181,10 +197,10 @@ class CtcRecognizer(EndpointedRecognizer):
         search: Search,
     ) -> Hypothesis:
         """What a piece says; where that is not clear, without what is only "um"."""
-        found = decoded(search, self._rivals, heard, rules, noise)
+        found = decoded(search, self._rivals, heard, rules, noise, self._hear_slots)
         if found.confidence >= CLEAR or not (parts := hesitations(sound, heard)):
             return found
-        rest = decoded(search, self._rivals, without(heard, parts), rules, noise)
+        rest = decoded(search, self._rivals, without(heard, parts), rules, noise, self._hear_slots)
         if rest.confidence <= found.confidence and not rest.begun:
             return found
         is_at_end = parts[-1].stop * round(FRAME * self.rate) >= len(sound) - KEPT - STILL
@@ -197,10 +213,11 @@ def decoded(
     log_probabilities: Floats,
     rules: Collection[str] | None = None,
     noise: float = 0.0,
+    hear_slots: HearSlots | None = None,
 ) -> Hypothesis:
     """The best sentence of a whole piece of speech, and what else it may have been.
 
-    `noise` is how noisy the piece is, 0 to 1.
+    `noise` is how noisy the piece is, 0 to 1; `hear_slots` makes words of free slots.
     """
     scores = scores_of(log_probabilities)
     search.begin(rules)
@@ -210,6 +227,7 @@ def decoded(
     if not found:
         return Hypothesis("", 0.0, begun=begun)
     best, phones = found[0].path, search.graph.phones
+    slots = hear_slots(best, scores) if hear_slots is not None else {}
     chances = shares([candidate.score for candidate in found])
     alternatives = [
         Alternative(said(candidate.path.words), float(chance))
@@ -221,7 +239,17 @@ def decoded(
     else:
         rival = rivals.score(scores, best.words) + unproven(best, search.graph)
         sure = confidence(fit_of(best, rival, scores, phones), noise)
-    return Hypothesis(said(best.words), sure, _times(best), tuple(alternatives), begun)
+    spelled = [
+        slots[place].text if place in slots else word for place, word in enumerate(best.words)
+    ]
+    return Hypothesis(
+        said(spelled),
+        sure,
+        _words(best, word_chances(best, log_probabilities, phones)),
+        tuple(alternatives),
+        begun,
+        slots=tuple(slots.values()),
+    )
 
 
 def _begun(search: Search, log_probabilities: Floats) -> str:
@@ -252,13 +280,17 @@ def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:
     return replace(hypothesis, words=words)
 
 
-def _times(path: Path) -> tuple[HeardWord, ...]:
-    """The words with the times of their phones; pauses and free words belong to none."""
+def _words(path: Path, chances: Sequence[float]) -> tuple[HeardWord, ...]:
+    """The words with their chances and the times of their phones; pauses and free words belong to
+    none.
+    """
     heard = []
-    for word, span in zip(path.words, path.spans, strict=True):
-        if free_words(word) is not None:
-            continue
+    listed = [free_words(word) is None for word in path.words]
+    parts = zip(compress(path.words, listed), compress(path.spans, listed), chances, strict=True)
+    for word, span, chance in parts:
         sounding = [index for index, state in enumerate(span.states) if state >= 0]
         start, end = span.start + sounding[0], span.start + sounding[-1] + 1
-        heard.append(HeardWord(word, round(start * FRAME, 3), round(end * FRAME, 3)))
+        heard.append(
+            HeardWord(word, round(start * FRAME, 3), round(end * FRAME, 3), round(chance, 4))
+        )
     return tuple(heard)

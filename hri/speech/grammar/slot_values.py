@@ -1,0 +1,47 @@
+"""What people say to give one value of a command: "the small one" to "Which size?"."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from hri.speech.grammar.expressions import (
+    Alternative,
+    Expression,
+    RuleReference,
+    Tagged,
+    children,
+)
+from hri.speech.grammar.grammar import Grammar
+
+VALUE = "value"
+"""The rule whose sentences give the value."""
+
+
+def values_of(grammar: Grammar, rule: str, tag: str) -> Grammar:
+    """The grammar with a single command, VALUE: what gives a tag of a rule its value, by itself.
+
+    Its sentences have the tags that they have within the rule. The grammar has no command where
+    nothing in the rule gives that tag.
+    """
+    own = grammar.rules[rule]
+    found = tuple(_givers(grammar, own.expression, tag))
+    choice = Alternative(found, (1.0,) * len(found), own.expression.span)
+    rules = {key: replace(one, is_public=False) for key, one in grammar.rules.items()}
+    marks = tuple(one for one in own.doc_tags if one.name in ("spoken", "careful"))
+    key = VALUE if VALUE not in rules else f"{VALUE}.{tag}"
+    rules[key] = replace(own, key=key, expression=choice, is_public=bool(found), doc_tags=marks)
+    return replace(grammar, rules=rules)
+
+
+def _givers(grammar: Grammar, node: Expression, tag: str) -> Iterator[Expression]:
+    """The smallest parts of an expression that give a tag its value by themselves."""
+    match node:
+        case Tagged(entries=entries) if any(entry.name == tag for entry in entries):
+            yield node
+        case RuleReference(name=name) if name in grammar.rules:
+            if tag in grammar.tag_names(name):
+                yield node
+        case _:
+            for below in children(node):
+                yield from _givers(grammar, below, tag)
