@@ -18,4 +18,4 @@ def rows(model: FaceModel, talking: Sequence[Vector], size: tuple[int, int]) -> 
         yield from attempted(what, lambda: skia.rows(model, talking, size))
     yield from attempted("viseme track against phoneme times", lambda: lips.rows(model))
     what = "expressions that an independent network names"
-    yield from attempted(what, lambda: judge.rows("robot", "person"))
+    yield from attempted(what, lambda: judge.rows("robot", *judge.HUMAN))

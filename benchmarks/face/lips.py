@@ -1,4 +1,4 @@
-"""How well the lips keep time with the voice, at the frames that are drawn."""
+"""How well the lips keep time with the voice, and show what matters, at the frames drawn."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.bench.face.live import SENTENCES
-from hri.bench.table import Row, amount, at_most
+from benchmarks.face.sentences import SENTENCES
+from hri.bench.table import Row, amount, at_least, at_most, share
 from hri.core.clock import RealClock
-from hri.core.signals import Speech
+from hri.core.signals import Prosody, Speech
 from hri.face.animator import Animator
-from hri.face.lips.lipsync import PhonemeTrack, VisemeSpan, spoken
+from hri.face.lips.lipsync import ROUND_LEAD, PhonemeTrack
+from hri.face.lips.spans import CLOSED, ROUNDED, VisemeSpan, spoken
 from hri.face.model import FaceModel
 from hri.face.regions import region_of
 from hri.hal.resource import Description
@@ -26,6 +27,24 @@ from hri.speech.synthesizers.natural import NaturalVoice
 Values = NDArray[np.float64]
 WHAT = "viseme track against phoneme times, p95"
 LATE_MS = 20.0
+VOICES: tuple[tuple[type[Synthesizer], str, tuple[float, ...]], ...] = (
+    (EspeakVoice, "espeak", (0.8, 1.0, 1.3)),
+    (NaturalVoice, "natural voice", (1.0, 1.25)),
+)
+"""Each with its name, and the paces that it is measured at, 1 is the usual one."""
+RATES = (30.0, 25.0)
+"""Frames a second."""
+
+CLOSURES, ROUNDINGS = "closures (p b m f v)", "rounded lips (sh ch j oo w)"
+SEEN = {CLOSURES: 1.0, ROUNDINGS: 0.9}
+"""The share of the sounds of each kind whose shape a frame must show."""
+SHUT, SHUT_WITHIN = 0.9, 0.07
+"""How near a mouth is to the shape that is shut, of the way from rest; and the seconds before its
+end within which a short sound may be seen."""
+ROUND = 0.8
+"""How round lips are, of the shape of the sound."""
+ROUNDING = ("mouthFunnel", "mouthPucker")
+"""Channels of lips that are round, which every shape of ROUNDED has."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,32 +60,93 @@ class LipTiming:
 
 
 def rows(model: FaceModel) -> Iterator[Row]:
-    """Milliseconds between a sound and its shape, and between changes of both.
+    """Milliseconds between a sound and its shape, and how many of the shapes that matter are seen.
 
     Raises NotAvailable without the voice.
     """
-    yield from _rows_of(model, EspeakVoice, WHAT)
-    yield from _rows_of(model, NaturalVoice, f"{WHAT}, natural voice")
+    for kind, name, paces in VOICES:
+        with ResourceManager((), RealClock()) as resources:
+            voice = kind(Description("voice", kind.__name__), resources)
+            resources.substitute("voice", voice)
+            voice.activate()
+            for pace in paces:
+                prosody = Prosody(rate=pace)
+                speeches = [voice.synthesize(sentence, prosody) for sentence in SENTENCES]
+                said = f", {name}" + f" at pace {pace:g}" * (pace != 1)
+                yield _timing(model, speeches, said)
+                yield from _seen(model, speeches, said)
 
 
-def _rows_of(model: FaceModel, kind: type[Synthesizer], what: str) -> Iterator[Row]:
-    shapes: list[float] = []
-    changes: list[float] = []
-    with ResourceManager((), RealClock()) as resources:
-        voice = kind(Description("voice", kind.__name__), resources)
-        resources.substitute("voice", voice)
-        voice.activate()
-        for sentence in SENTENCES:
-            timing = lip_timing(model, voice.synthesize(sentence))
-            shapes += timing.shapes
-            changes += timing.changes
+def _timing(model: FaceModel, speeches: Sequence[Speech], said: str) -> Row:
+    timings = [lip_timing(model, speech) for speech in speeches]
+    shapes = [error for timing in timings for error in timing.shapes]
+    changes = [error for timing in timings for error in timing.changes]
     late = float(np.percentile(1e3 * np.abs(shapes), 95))
     told = {
         "sounds": len(shapes),
         "change_median_ms": round(1e3 * float(np.median(changes)), 1),
         "change_p95_ms": round(1e3 * float(np.percentile(np.abs(changes), 95)), 1),
     }
-    yield amount(what, late, "ms", at_most(LATE_MS), **told)
+    return amount(WHAT + said, late, "ms", at_most(LATE_MS), **told)
+
+
+def _seen(model: FaceModel, speeches: Sequence[Speech], said: str) -> Iterator[Row]:
+    for rate in RATES:
+        seen = [lips_seen(model, speech, rate, n % 4 / 4) for n, speech in enumerate(speeches)]
+        for what, least in SEEN.items():
+            all_seen = [each for one in seen for each in one[what]]
+            yield share(
+                f"{what} that a frame shows at {rate:g} Hz{said}",
+                sum(all_seen),
+                len(all_seen),
+                at_least(least),
+            )
+
+
+def lips_seen(
+    model: FaceModel, speech: Speech, rate: float = 30.0, phase: float = 0.0
+) -> dict[str, list[bool]]:
+    """Whether each closure and each rounding is seen in a frame, by the names in SEEN.
+
+    All sounds of the voice count, those that the lips leave out as well. `phase` is when the first
+    frame is drawn, of the time between two.
+    """
+    times, frames = _animated(model, speech, rate, phase=phase)
+    seen: dict[str, list[bool]] = {what: [] for what in SEEN}
+    for sound in spoken(speech.phonemes):
+        shape = model.vector(model.viseme(sound.viseme)).astype(float)
+        if sound.viseme in CLOSED:
+            near = _between(times, min(sound.start, sound.end - SHUT_WITHIN), sound.end)
+            lips = _channels(model, ("mouth", "jaw"))
+            away = np.linalg.norm((frames[near] - shape)[:, lips], axis=1)
+            nearness = 1 - away / np.linalg.norm(shape[lips])
+            seen[CLOSURES].append(bool(nearness.max(initial=0.0) >= SHUT))
+        elif sound.viseme in ROUNDED:
+            near = _between(times, sound.start - ROUND_LEAD, sound.end)
+            lips = _channels(model, ROUNDING)
+            rounded = frames[near][:, lips].sum(axis=1) / shape[lips].sum()
+            seen[ROUNDINGS].append(bool(rounded.max(initial=0.0) >= ROUND))
+    return seen
+
+
+def _between(times: Values, start: float, end: float) -> NDArray[np.bool_]:
+    within: NDArray[np.bool_] = (start - 1e-9 <= times) & (times <= end + 1e-9)
+    return within
+
+
+def _channels(model: FaceModel, beginnings: tuple[str, ...]) -> NDArray[np.bool_]:
+    return np.array([channel.startswith(beginnings) for channel in model.channels])
+
+
+def _animated(
+    model: FaceModel, speech: Speech, rate: float, ahead: float = 0.0, phase: float = 0.0
+) -> tuple[Values, Values]:
+    """The times of the frames, seconds, and their weights; `phase` is as in `lips_seen`."""
+    animator = Animator(model, latency=ahead)
+    animator.speak(speech)
+    numbers = np.arange(-1 if phase else 0, round(speech.duration * rate))
+    times = np.asarray((numbers + phase) / rate, np.float64)
+    return times, np.array([animator.vector(time, 1 / rate, time) for time in times], float)
 
 
 def lip_timing(
@@ -77,10 +157,7 @@ def lip_timing(
     A frame counts as seen when its time is heard. `ahead` is how many seconds the lips are read
     ahead for a display that is late; without such a display they are early by as much.
     """
-    animator = Animator(model, latency=ahead)
-    animator.speak(speech)
-    times = np.arange(round(speech.duration * rate)) / rate
-    frames = np.array([animator.vector(time, 1 / rate, time) for time in times], float)
+    times, frames = _animated(model, speech, rate, ahead)
     mouth = np.array([region_of(channel) == "mouth" for channel in model.channels])
     segments = PhonemeTrack(speech.phonemes).segments
     away = [_distances(model, segment, frames)[..., mouth].sum(axis=1) for segment in segments]

@@ -17,7 +17,8 @@ from hri.face.drawing.baking import Item, Shape, Vector
 from hri.face.drawing.outline import apply, compose
 from hri.face.drawing.paint import Gradient, Solid
 from hri.face.model import FaceModel
-from hri.face.renderers.renderer import Renderer, fit
+from hri.face.renderers.painter import fit
+from hri.face.renderers.renderer import Renderer
 
 TIMES = 3.0
 WARM = 5

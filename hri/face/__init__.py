@@ -9,7 +9,8 @@ motion       expressions, gestures, gaze, blinks and idle life, each as weights 
 renderers    weights become a picture; captions, contact sheets, movies, small screens
 settings, model, lint       face.toml, the loaded face, and its likely mistakes
 animator     all layers, by region, become the weights of now
-scene, still, live_link     a script of all that, one picture of it, and weights as CSV
+scene, still, frames        a script of all that, one picture of it, and those of a sentence
+live_link                   weights as CSV
 behaviors    Face and FaceRenderer, for networks
 """
 

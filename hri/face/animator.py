@@ -19,12 +19,15 @@ from hri.face.motion.idle_state import IdlePose, IdleState, check_state
 from hri.face.motion.lids import Lids
 from hri.face.motion.mixer import Layers, Mixer
 from hri.face.motion.spring import Follower
+from hri.face.motion.turn_gaze import TurnGaze
 from hri.face.vocabulary import TURNS
 
 LARGE_SHIFT = 20.0
 """Degrees of a look elsewhere that makes the eyes blink."""
 NEARLY_SHUT = 0.6
 """How far eyes are shut that need no blink."""
+SMILES = ("mouthSmile", "mouthDimple")
+"""Beginnings of the names of the channels that smile."""
 _OVERRIDE = 20.0
 """Stiffness, radians a second."""
 
@@ -44,6 +47,7 @@ class Animator:
         self._speaking = LipPlayer(model, latency)
         self._gesturing = GesturePlayer(model)
         self._looking = GazeController(model.settings)
+        self._turning = TurnGaze(model.settings.idle.aversion, seed)
         self._living = IdleState(model, seed)
         self._mixer = Mixer(model)
         # An override is its weights times how much they win, then how much they win.
@@ -51,6 +55,8 @@ class Animator:
         self._override_goal = self._override.value
         self._overridden: Mapping[str, float] = {}
         self._lids, self._shut = Lids(model), 0.0
+        # A gesture does not smile while the face shows that it is sad, angry or afraid.
+        self._smiles = np.array([name.startswith(SMILES) for name in model.channels], float)
         self._turns = TURNS if set(TURNS) <= set(model.channels) else ()
 
     @property
@@ -157,8 +163,14 @@ class Animator:
         expression = self._expressing.follow(now, dt)
         viseme, talking = self._speaking.follow(position, dt)
         self._living.be(self._life())
-        alive = self._living.follow(now, dt, shutting=self._expressing.shuts >= NEARLY_SHUT)
+        alive = self._living.follow(
+            now,
+            dt,
+            shutting=self._expressing.shuts >= NEARLY_SHUT,
+            shown=self._expressing.arousal,
+        )
         look = self._looking.follow(now, dt)
+        drift = self._drift(alive, position, dt)
         gesture = self._gesturing.follow(now, dt)
         override = self._override.follow(self._override_goal, dt, _OVERRIDE)
         size = len(self.model.channels)
@@ -169,10 +181,10 @@ class Animator:
                 viseme=viseme,
                 talking=talking,
                 blink=alive.blink,
-                gaze=_gaze(look, alive, gesture, left),
+                gaze=_gaze(look, drift, gesture, left),
                 inward=left * look.inward,
                 idle=self._moves(look, alive),
-                gesture=gesture.weights,
+                gesture=gesture.weights * (1 - self._expressing.displeasure * self._smiles),
                 owned=gesture.owned,
                 override=override[:size],
                 overridden=override[size:],
@@ -187,6 +199,12 @@ class Animator:
             return self._expressing.label
         return self._state or ("resting" if self._speaking.speech is None else "talking")
 
+    def _drift(self, alive: IdlePose, position: float | None, dt: float) -> Gaze:
+        """How far the eyes are from what they look at, by themselves or for the turn."""
+        turn = self._turning.follow(self._speaking.speech, position, dt)
+        x, y = alive.drift.x, alive.drift.y
+        return Gaze((1 - turn.kept) * x + turn.away.x, (1 - turn.kept) * y + turn.away.y)
+
     def _moves(self, look: GazeAngles, alive: IdlePose) -> dict[str, float]:
         """What moves by itself, and the head that follows the eyes."""
         moves = alive.moves
@@ -195,8 +213,8 @@ class Animator:
         return moves
 
 
-def _gaze(look: GazeAngles, alive: IdlePose, gesture: Gestured, left: float) -> Gaze:
+def _gaze(look: GazeAngles, drift: Gaze, gesture: Gestured, left: float) -> Gaze:
     """Of the eyes; `left` is what a gesture leaves of where they look without it."""
-    x = left * (look.eyes.x + alive.drift.x) + float(gesture.gaze[0])
-    y = left * (look.eyes.y + alive.drift.y) + float(gesture.gaze[1])
+    x = left * (look.eyes.x + drift.x) + float(gesture.gaze[0])
+    y = left * (look.eyes.y + drift.y) + float(gesture.gaze[1])
     return Gaze(min(max(x, -1.0), 1.0), min(max(y, -1.0), 1.0))

@@ -15,6 +15,7 @@ from hri.core.errors import HriError
 from hri.core.event_bus import EventBus, Subscription
 from hri.core.signals import Event, Expression, FaceWeights, Gaze, Image, Speech
 from hri.face.animator import Animator
+from hri.face.drawing.baking import Vector
 from hri.face.lips.lip_player import PICTURE_LEAD
 from hri.face.live_link import WeightWriter, read_weights
 from hri.face.model import load_face
@@ -86,7 +87,7 @@ class Face(Behavior):
         "weights", "win over all else, as long as they are sent", is_optional=True
     )
     weights = Output[FaceWeights]("weights", "weights of all channels that are not at rest")
-    caption = Output[str]("string", "the text that is being said")
+    caption = Output[str]("string", "the sentence that is being said")
 
     def check(self) -> None:
         load_gestures(load_face(self.face))
@@ -127,7 +128,7 @@ class Face(Behavior):
         self.weights.send(animator.step(now, dt, self.position.value))
         self._tell_end()
         if speech is not None:
-            self.caption.send(speech.text)
+            self.caption.send(speech.caption(self.position.value or 0.0))
 
     def stop(self) -> None:
         self._subscription.cancel()
@@ -246,14 +247,22 @@ class FaceRenderer(Behavior):
 
     def start(self, context: Context) -> None:
         """Raises HriError when the face cannot be read or the screen is too large or small."""
+        from hri.face.renderers.bits import BitRenderer
+        from hri.face.renderers.painter import load_compiler
         from hri.face.renderers.renderer import Renderer
 
+        load_compiler()
         self.captions_on = self.captions
         self.frames = 0
         self._refusals = Refusals(context.events)
         self._screen = context.resources.obtain(self.screen_id, Screen)
         size = (self._screen.width, self._screen.height)
-        self._renderer = Renderer(load_face(self.face), size)
+        self._model = model = load_face(self.face)
+        self._render: Callable[[Vector], Image] = (
+            BitRenderer(model, size).picture
+            if self._screen.is_one_bit
+            else Renderer(model, size).render
+        )
         self._worker: Worker[Image | HriError] = context.clock.worker(RENDER_LATENCY)
 
     def compute(self, now: float, dt: float) -> None:
@@ -276,7 +285,7 @@ class FaceRenderer(Behavior):
         from hri.face.renderers.lamp import add_lamp
 
         try:
-            picture = self._renderer.render(self._renderer.model.vector(weights.values))
+            picture = self._render(self._model.vector(weights.values))
         except HriError as error:
             return error
         return add_caption(add_lamp(picture) if is_watching else picture, text)

@@ -7,7 +7,8 @@ picture when expressions and visemes meet.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from functools import cached_property
 from pathlib import Path
 
@@ -17,7 +18,6 @@ from numpy.typing import NDArray
 from hri.core.errors import Place, did_you_mean
 from hri.core.toml import Table, load_toml
 from hri.face.drawing.baking import Item, Opening, Shape, pairs_of
-from hri.face.drawing.head_turn import depth_of
 from hri.face.drawing.outline import Points
 from hri.face.drawing.paint import Gradient
 from hri.face.drawing.svg import STROKE, Drawing, load_drawing
@@ -148,17 +148,17 @@ class _Inspection:
                 yield self._in_toml("expressions", label, what, "give it different weights")
 
     def patterns(self) -> Iterator[Finding]:
-        """Patterns of the head that fit no part."""
-        head = self.model.settings.head
+        """Patterns of the head and of layers that fit no part."""
+        settings = self.model.settings
+        head = () if settings.head is None else (*settings.head.still, *settings.head.depths)
+        asked: list[tuple[str, str | None, str]] = [("head", None, pattern) for pattern in head]
+        asked += [("layers", layer, pattern) for pattern, layer in settings.layers.patterns.items()]
         ids = [id.removesuffix(STROKE) for id in self.neutral.parts]
-        if head is None:
-            return
-        for pattern in (*head.still, *head.depths):
-            alone = replace(head, still=(pattern,))
-            if all(depth_of(id, alone) is not None for id in ids):
+        for table, key, pattern in asked:
+            if not any(fnmatchcase(id, pattern) for id in ids):
                 what = f'"{pattern}" fits no part'
                 remedy = did_you_mean(pattern.strip("*"), ids, "fix it, or delete it")
-                yield self._in_toml("head", None, what, remedy)
+                yield self._in_toml(table, key, what, remedy)
 
     def inside_out(self) -> Iterator[Finding]:
         """Openings whose edges cross: lids, or lips, that go through each other."""

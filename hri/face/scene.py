@@ -156,7 +156,7 @@ class Scene:
             position = None if speech is None or talk is None else now - talk.at
             vector = animator.vector(now, 1 / rate, position)
             if number >= 0:
-                yield Moment(now, vector, "" if speech is None else speech.text)
+                yield Moment(now, vector, "" if speech is None else speech.caption(position or 0.0))
 
     def sound(self) -> tuple[Samples, int] | None:
         """All that is said, at its times, and samples a second; None for a silent scene.

@@ -10,6 +10,7 @@ from pathlib import Path
 from hri.core.errors import AuthoringError, Mistakes, did_you_mean
 from hri.core.toml import REQUIRED as NO_DEFAULT, Table, load_toml
 from hri.face.drawing.paint import Color, parse_color
+from hri.face.layers import Layers, read_layers
 from hri.face.vocabulary import AFFECT, LABELS, MOTIONS, REQUIRED, TURNS, VISEMES
 
 Weights = Mapping[str, float]
@@ -26,6 +27,10 @@ class BlinkSettings:
     """Blinks a minute at rest."""
     double: float
     """Share of blinks that come twice, 0 to 1."""
+    half: float
+    """Share of blinks that do not shut the eyes wholly, 0 to 1."""
+    uneven: float
+    """Share of blinks in which one eye is seen to be later and to shut less, 0 to 1."""
     close_s: float
     hold_s: float
     open_s: float
@@ -115,6 +120,7 @@ class Settings:
     about: str
     background: tuple[Color, Color]
     """In the middle and in the corners."""
+    layers: Layers
     expressions: Mapping[str, Weights]
     """By label, aliases too."""
     timing: Mapping[str, Timing]
@@ -143,6 +149,7 @@ def load_settings(path: Path, targets: Collection[str]) -> Settings:
     settings = Settings(
         about=table.string("about", ""),
         background=_background(table.table("background")),
+        layers=read_layers(table.table("layers", optional=True)),
         expressions=expressions,
         timing=_timing(table.table("timing", optional=True), expressions),
         affect=_affect(table.table("affect", optional=True), expressions),
@@ -308,6 +315,8 @@ def _blink(table: Table, channels: Collection[str]) -> BlinkSettings:
         weights=_weights(table.table("weights"), channels),
         rate=table.number("rate_per_minute", 17.0, minimum=0, maximum=60),
         double=table.number("double_share", 0.12, minimum=0, maximum=1),
+        half=table.number("half_share", 0.08, minimum=0, maximum=1),
+        uneven=table.number("uneven_share", 0.12, minimum=0, maximum=1),
         close_s=table.number("close_s", 0.08, minimum=0.03, maximum=1),
         hold_s=table.number("hold_s", 0.03, minimum=0, maximum=1),
         open_s=table.number("open_s", 0.18, minimum=0.03, maximum=1),
@@ -358,9 +367,10 @@ def _neck(table: Table) -> tuple[float, float]:
     return top, bottom
 
 
-_MAY_BE_LEFT_OUT = ("head", "pupils", "idle")
+_MAY_BE_LEFT_OUT = ("layers", "head", "pupils", "idle")
 _TABLES: dict[str, Callable[[Table, Collection[str]], object]] = {
     "background": lambda table, channels: _background(table),
+    "layers": lambda table, channels: read_layers(table),
     "head": lambda table, channels: _head(table),
     "pupils": _weights,
     "blink": _blink,

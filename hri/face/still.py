@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from hri.face.drawing.baking import Vector
 from hri.face.model import FaceModel, load_face
 from hri.face.motion import idle
 from hri.face.motion.affect_map import AffectMap
+from hri.face.motion.blinking import blink_closure
 from hri.face.motion.mixer import Layers, Mixer
 from hri.face.vocabulary import TURNS
 
@@ -33,6 +34,9 @@ def render_face(
     arousal: float | None = None,
     yaw: float = 0.0,
     pitch: float = 0.0,
+    *,
+    transparent: bool = False,
+    layers: Collection[str] = (),
 ) -> Image:
     """A picture of a face: RGB, uint8, [height, width, 3]. The same arguments give the same bytes.
 
@@ -42,7 +46,9 @@ def render_face(
     added by target. `gaze` is -1 to 1: x to the viewer's right, y up. `yaw` and `pitch` turn the
     head to the viewer's right and up, in degrees, as far as the face allows. `time` in seconds adds
     idle life and nothing else (blinks, breathing, small eye movements), drawn from `seed`. `size`
-    is width and height in pixels.
+    is width and height in pixels. A `transparent` picture is RGBA, [height, width, 4], without the
+    background; its colors are not multiplied with the opacity. `layers` are those of its face.toml
+    to draw, such as ("ink",).
 
     Raises HriError for an unknown name, a number that is not finite or out of range, a face that
     cannot be read.
@@ -64,7 +70,8 @@ def render_face(
         yaw,
         pitch,
     )
-    return Renderer(model, size).render(vector)
+    renderer = Renderer(model, size, transparent=transparent, layers=layers)
+    return renderer.render(vector)
 
 
 def still_vector(
@@ -154,7 +161,7 @@ def _alive(layers: Layers, model: FaceModel, time: float, seed: int, expression:
         moves |= dict(zip(TURNS, idle.turning(settings.idle, seed, time, state), strict=True))
     return replace(
         layers,
-        blink=idle.blink_closure(settings.blink, seed, time, settings.blink.rate * life.blinks),
+        blink=blink_closure(settings.blink, seed, time, settings.blink.rate * life.blinks),
         gaze=Gaze(_within(layers.gaze.x + drift.x), _within(layers.gaze.y + drift.y)),
         idle=moves,
     )

@@ -33,7 +33,7 @@ from hri.robot import Job, Robot
 from hri.speech.synthesizers.silent import SilentVoice
 from hri.task.context import TaskContext
 from hri.testing.cameras import Fault, FaultyCamera
-from hri.testing.golden import Golden
+from hri.testing.golden import Golden, difference
 from hri.testing.pictures import expressions_of, spoken_frames
 
 __all__ = [
@@ -47,6 +47,7 @@ __all__ = [
     "SilentSpeaker",
     "SilentVoice",
     "context",
+    "difference",
     "expressions_of",
     "live_for",
     "run_for",

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from hri.core.clock import FakeClock
-from hri.core.signals import Expression, Image, Speech
+from hri.core.signals import Image, Speech
+from hri.face.frames import said, speaking_frames
 from hri.face.model import FaceModel, load_face
 from hri.face.renderers.renderer import Renderer
-from hri.face.scene import scene_of
 from hri.face.still import still_vector
-from hri.hal.resource import Description
-from hri.hal.resource_manager import ResourceManager
-from hri.speech.synthesizers.espeak import EspeakVoice
+
+__all__ = ["SIZE", "expressions_of", "said", "spoken_frames"]
 
 SIZE = (320, 240)
 """Width and height in pixels: enough to distinguish two faces, and drawn in a millisecond."""
@@ -33,21 +31,8 @@ def spoken_frames(
     pictures a second; the last second is the silence after it. The same arguments give the same
     bytes. Raises HriError for an unknown face or expression.
     """
-    speech = said(text) if isinstance(text, str) else text
-    model = load_face(face) if isinstance(face, str) else face
-    still_vector(model, expression)  # raises for one that the face does not know
-    renderer = Renderer(model, size)
-    for moment in scene_of(speech, Expression(expression)).moments(model, rate, seed):
-        yield renderer.render(moment.vector)
-
-
-def said(text: str) -> Speech:
-    """A sentence in the default voice, with the times of its phonemes."""
-    with ResourceManager((), FakeClock()) as resources:
-        voice = EspeakVoice(Description("voice", "Hri.EspeakVoice"), resources)
-        resources.substitute("voice", voice)
-        voice.activate()
-        return voice.synthesize(text)
+    for picture, _ in speaking_frames(text, face, expression, size=size, rate=rate, seed=seed):
+        yield picture
 
 
 def expressions_of(

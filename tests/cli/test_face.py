@@ -23,6 +23,27 @@ def test_render_in_bits_writes_black_and_white_alone(tmp_path: Path) -> None:
     assert set(cv2.imread(str(out)).ravel().tolist()) == {0, 255}
 
 
+@pytest.mark.parametrize("suffix", [".png", ".webp"])
+def test_render_leaves_the_background_out(suffix: str, tmp_path: Path) -> None:
+    out = tmp_path / f"face{suffix}"
+    assert main(["face", "render", "--transparent", "--size", "96x64", "--out", str(out)]) == 0
+    picture = cv2.imread(str(out), cv2.IMREAD_UNCHANGED)
+    assert picture.shape == (64, 96, 4)
+    assert picture[0, 0].tolist() == [0, 0, 0, 0]
+    assert picture[32, 48, 3] == 255
+
+
+def test_render_draws_some_layers_alone(tmp_path: Path) -> None:
+    folder, out = write_face(tmp_path / "small"), tmp_path / "ink.png"
+    with (folder / "face.toml").open("a") as file:
+        file.write('[layers]\nink = ["eye*"]\n')
+    words = ["face", "render", "--face", str(folder), "--layer", "ink", "--transparent"]
+    assert main([*words, "--size", "100x100", "--out", str(out)]) == 0
+    alpha = cv2.imread(str(out), cv2.IMREAD_UNCHANGED)[..., 3]
+    assert alpha[45, 35] == 255
+    assert alpha[60, 50] == 0
+
+
 def test_sheet_shows_everything(tmp_path: Path) -> None:
     out = tmp_path / "sheet.png"
     assert main(["face", "sheet", "--out", str(out)]) == 0
@@ -32,7 +53,7 @@ def test_sheet_shows_everything(tmp_path: Path) -> None:
 
 
 def test_all_faces_of_the_house_pass_the_check(capsys: pytest.CaptureFixture[str]) -> None:
-    for face in ("robot", "person", "eyes"):
+    for face in ("robot", "astronaut", "person", "eyes"):
         assert main(["face", "check", face]) == 0, capsys.readouterr().out
     assert "warning" not in capsys.readouterr().out
 
@@ -41,7 +62,7 @@ def test_list_names_the_faces_and_tells_which_is_broken(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     assert main(["face", "list"]) == 0
-    assert "robot        A warm robot" in capsys.readouterr().out
+    assert "robot        A lantern seed" in capsys.readouterr().out
     (tmp_path / "faces" / "broken").mkdir(parents=True)
     monkeypatch.setenv("HRI_PATH", str(tmp_path))
     assert main(["face", "list"]) == 1
@@ -107,6 +128,8 @@ def test_export_writes_all_that_a_canvas_needs(tmp_path: Path) -> None:
         "render --face nobody --out x.png",
         "render --out nowhere/at/all/x.png",
         "render --out x.bmp",
+        "render --transparent --out x.jpg",
+        "render --face eyes --layer body --out x.png",
         "check nobody",
         "new Mine",
         "new ../mine",

@@ -56,6 +56,11 @@ def test_the_commands_of_the_page_run(
         assert status == 0, told.err
 
 
+@pytest.mark.parametrize("text", [text for kind, text in BLOCKS if kind == "python"])
+def test_the_programs_of_the_page_run(text: str) -> None:
+    exec(compile(text, "docs/faces.md", "exec"), {})
+
+
 def test_the_page_names_all_labels_visemes_and_targets() -> None:
     words = set(re.findall(r"\w+", PAGE))
     assert words >= {*LABELS, *VISEMES, *PAIRED, *SINGLE}

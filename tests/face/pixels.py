@@ -25,7 +25,7 @@ from hri.face.still import still_vector
 from hri.face.vocabulary import MOTIONS, TURNS
 
 SIZE = (480, 480)
-MODEL = load_face("robot")
+MODEL = load_face("astronaut")
 
 Pixels = NDArray[np.int_]
 """Shape [height, width, 3]."""

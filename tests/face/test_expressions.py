@@ -1,4 +1,4 @@
-"""What the default face shows, measured from its pixels."""
+"""What the astronaut shows, measured from its pixels: it has lids, lips, teeth and brows."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -156,7 +156,7 @@ def test_a_blink_shuts_the_eyes() -> None:
 @pytest.mark.parametrize("label", LABELS)
 def test_a_blink_shuts_the_eyes_whatever_is_felt(label: str) -> None:
     expression = MODEL.vector(MODEL.expression(label))
-    vector = Mixer(MODEL).mix(Layers(expression, np.zeros_like(expression), blink=1.0))
+    vector = Mixer(MODEL).mix(Layers(expression, np.zeros_like(expression), blink=(1.0, 1.0)))
     vector[[MODEL.channels.index(turn) for turn in TURNS]] = 0.0
     assert all(np.abs(gaps).max() < 1.5 for gaps in _gaps(vector, "scleraLeft", "scleraRight"))
 

@@ -18,19 +18,26 @@ from hri.face.motion.mixer import Layers, Mixer
 from hri.face.renderers.renderer import Renderer
 from hri.face.renderers.small_screens import Bits, one_bit
 from hri.face.still import still_vector
-from hri.face.vocabulary import LABELS
+from hri.face.vocabulary import EXPRESSIONS, LABELS, VISEMES
 from hri.testing.golden import Golden
 
 MODEL = load_face("eyes")
 SCREEN = Renderer(MODEL, (128, 64))
 
 BASIC = ("neutral", "happy", "sad", "angry", "surprised", "scared", "disgusted")
+HALF_SHUT = (
+    "sad", "angry", "disgusted", "guilty", "disappointed", "rejected", "tired", "bored", "annoyed",
+    "furious", "suspicious", "embarrassed", "despaired", "asleep",
+)  # fmt: skip
 LEFT_HALF, RIGHT_HALF = slice(0, 64), slice(64, 128)
 BAR = (slice(50, 64), slice(48, 80))
 """Where the voice shows, below and between the eyes."""
 
 GOLDEN_SIZE = (256, 128)
-GOLDENS = ("neutral", "happy", "furious", "pleading", "asleep", "confused")
+GOLDENS = (
+    "neutral", "happy", "furious", "pleading", "asleep", "confused", "sad", "tired", "despaired",
+    "disgusted",
+)  # fmt: skip
 
 
 def lit(vector: Vector, light: float = 1.0) -> Bits:
@@ -41,6 +48,11 @@ def lit(vector: Vector, light: float = 1.0) -> Bits:
 
 def shown(expression: str = "neutral", intensity: float = 1.0, **arguments: object) -> Bits:
     return lit(still_vector(MODEL, expression, intensity, **arguments))  # type: ignore[arg-type]
+
+
+def seen(size: tuple[int, int], **look: object) -> NDArray[np.int16]:
+    vector = still_vector(MODEL, **look)  # type: ignore[arg-type]
+    return Renderer(MODEL, size).render(vector).astype(np.int16)
 
 
 @cache
@@ -78,6 +90,50 @@ def test_every_expression_has_a_look_of_its_own() -> None:
 def test_the_basic_expressions_differ_in_a_glance() -> None:
     for one, other in combinations(BASIC, 2):
         assert (looks()[one] != looks()[other]).sum() > 800, f"{one} looks like {other}"
+
+
+def test_any_two_expressions_differ_clearly_at_400x300() -> None:
+    pictures = {label: seen((400, 300), expression=label) for label in EXPRESSIONS}
+    for one, other in combinations(EXPRESSIONS, 2):
+        apart = np.abs(pictures[one] - pictures[other]).mean()
+        assert apart >= (15.0 if {one, other} <= set(BASIC) else 9.5), (one, other)
+
+
+def test_lids_are_not_seen_beside_the_light() -> None:
+    """Of a screen that glows, only what is around the lit part is neither dark nor lit."""
+
+    def dim(label: str) -> float:
+        bright = seen((256, 128), expression=label).max(axis=2)
+        return float(((bright > 18) & (bright < 90)).mean())
+
+    for label in HALF_SHUT:
+        assert dim(label) < 1.05 * dim("neutral"), label
+
+
+def test_weary_and_weeping_eyes_are_light_enough_to_be_seen() -> None:
+    asleep = looks()["asleep"].sum()
+    for label in ("tired", "despaired"):
+        assert looks()[label].sum() > 1.25 * asleep, label
+
+
+def test_a_tear_hangs_beside_the_eye() -> None:
+    """It neither touches it, which would be a bump in one bit, nor bites it."""
+    for label in ("sad", "rejected"):
+        weeping = still_vector(MODEL, label)
+        dry = still_vector(MODEL, label, weights={"tear": -1.0})
+        drop = lit(weeping) & ~lit(dry)
+        assert drop.sum() > 25
+        assert not (lit(dry) & ~lit(weeping)).any()
+        apart = np.pad(drop, 1)[1:-1, 1:-1] | np.pad(drop, 1)[:-2, 1:-1] | np.pad(drop, 1)[2:, 1:-1]
+        assert not (apart & lit(dry)).any(), label
+
+
+def test_the_squiggle_of_disgust_is_between_the_eyes() -> None:
+    weights = {"mouthWave": -1.0}
+    eyes = shown("disgusted", weights=weights)
+    squiggle = looks()["disgusted"] & ~eyes
+    left, right = columns_of(eyes)[[0, -1]]
+    assert abs(middle_of(squiggle)[0] - (left + right) / 2) < 2
 
 
 @pytest.mark.parametrize("label", LABELS)
@@ -166,7 +222,7 @@ def test_what_lies_beside_the_eyes_says_more() -> None:
 @pytest.mark.parametrize("label", sorted({*LABELS} - {"error", "despaired"}))
 def test_a_blink_shuts_the_eyes_of_every_expression(label: str) -> None:
     layers = Layers(
-        expression=MODEL.vector(MODEL.expression(label)), viseme=MODEL.vector({}), blink=1.0
+        expression=MODEL.vector(MODEL.expression(label)), viseme=MODEL.vector({}), blink=(1.0, 1.0)
     )
     lids: Bits = lit(Mixer(MODEL).mix(layers))[:50, 24:40]
     assert 2 <= np.sum(lids.any(axis=1)) <= 12, "a line is left"
@@ -302,6 +358,12 @@ def test_the_eyes_bounce_with_the_voice() -> None:
 
     assert height("aa") >= height("sil") + 3
     assert height("PP") <= height("sil") - 3
+
+
+def test_any_two_visemes_differ_at_400x300() -> None:
+    pictures = {name: seen((400, 300), viseme=name) for name in VISEMES}
+    for one, other in combinations(VISEMES, 2):
+        assert np.abs(pictures[one] - pictures[other]).mean() >= 1.5, (one, other)
 
 
 # --- pictures ------------------------------------------------------------------------------------

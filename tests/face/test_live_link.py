@@ -88,7 +88,7 @@ def test_a_recording_of_the_app_is_read(tmp_path: Path) -> None:
     [
         ("", "1:1: no column Timecode"),
         ("a,b\n", "1:1: no column Timecode"),
-        ("Timecode,BlendShapeCount,Trunk\n", "1:1: no column for the face robot"),
+        ("Timecode,BlendShapeCount,Trunk\n", "1:1: no column for the face astronaut"),
         ("Timecode,JawOpen,JawOpen\n", "1:1: the column JawOpen is there twice"),
         (HEADER + "\n", "0 rows of weights - record two at least"),
         (HEADER + "\n0:0:0:0,61,0\n", "2:1: 3 cells in a row - write 4"),

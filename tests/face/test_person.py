@@ -17,7 +17,7 @@ from hri.face.drawing.baking import Item, Opening, Shape, Vector
 from hri.face.motion.mixer import Layers, Mixer
 from hri.face.renderers.renderer import Renderer
 from hri.face.still import still_vector
-from hri.face.vocabulary import ARKIT, LABELS, VISEMES
+from hri.face.vocabulary import ARKIT, EXPRESSIONS, LABELS, VISEMES
 from hri.testing.golden import Golden
 from tests.face.pixels import Shot, face
 
@@ -25,12 +25,13 @@ MODEL = load_face("person")
 SMALL = Renderer(MODEL, (240, 240))
 MOUTH = (slice(152, 204), slice(80, 160))
 """In such a picture, of a head held still."""
+SEVEN = ("neutral", "happy", "sad", "angry", "surprised", "scared", "disgusted")
 STEPS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 GOLDEN_SIZE = (320, 240)
 GOLDENS = (
     "neutral", "happy", "sad", "angry", "surprised", "disgusted", "asleep", "excited", "error",
-    "turned",
+    "turned", "furious", "horrified", "embarrassed", "amazed", "annoyed",
 )  # fmt: skip
 FRAME = (slice(60, 210), slice(85, 235))
 """What is kept of such a picture."""
@@ -198,11 +199,67 @@ def test_extras_belong_to_the_expressions_that_need_them() -> None:
     assert opacity("tear", shown("despaired")) == opacity("tearRight", shown("despaired")) == 1
 
 
-def test_tears_are_large_and_blue() -> None:
+def test_a_tear_is_a_blue_drop_that_comes_from_the_eye() -> None:
     drop = seen("sad").at("tear")
-    red, _, blue = drop[len(drop) // 2, drop.shape[1] // 2]
+    red, _, blue = drop[round(0.8 * len(drop)), drop.shape[1] // 2]
     assert blue > red + 60
-    assert area(drawn("tear", shown("sad"))) > 400
+    for side, id in (("Left", "tear"), ("Right", "tearRight")):
+        tear = drawn(id, shown("despaired"))
+        assert area(tear) > 400
+        assert np.ptp(tear[:, 0]) < 0.5 * np.ptp(tear[:, 1]), "it runs"
+        lid = drawn(f"lidLowerLine{side}", shown("despaired"))[:, 1].max()
+        assert abs(tear[:, 1].min() - lid) < 12, "from the lower lid"
+
+
+def skin(label: str, id: str, dx: float, dy: float) -> NDArray[np.int_]:
+    """The color of the skin beside the middle of a part."""
+    vector = shown(label)
+    x, y = middle_of(id, vector) + np.array([dx, dy])
+    picture = Renderer(MODEL, (480, 480)).render(vector)
+    patch = picture[round(y) - 2 : round(y) + 3, round(x) - 2 : round(x) + 3]
+    return patch.reshape(-1, 3).mean(axis=0).astype(int)
+
+
+def test_a_flush_fades_out_before_the_chin() -> None:
+    """At the edge of the jaw it would be a mask."""
+    for id, dy, least, most in (("noseBridge", 0, 25, 120), ("chinLight", 14, -12, 12)):
+        red, green, _ = skin("furious", id, 0, dy)
+        calm_red, calm_green, _ = skin("neutral", id, 0, dy)
+        assert least < (calm_green - green) - (calm_red - red) < most, id
+
+
+def test_a_face_of_horror_is_pale_not_bruised() -> None:
+    for id, dx, dy in (("noseBridge", 0, -60), ("irisLeft", 20, 40), ("irisRight", -20, 40)):
+        pale, calm = skin("horrified", id, dx, dy), skin("neutral", id, dx, dy)
+        assert np.ptp(pale) < np.ptp(calm) - 15, "less color"
+        assert pale.sum() > 0.9 * calm.sum(), "yet no darker"
+
+
+def test_marks_lie_on_the_skin() -> None:
+    for label, id in (("embarrassed", "sweat"), ("annoyed", "vein")):
+        vector = shown(label)
+        mark = drawn(id, vector).astype(np.float32)
+        hair, head = (drawn(part, vector).astype(np.float32) for part in ("hair", "head"))
+        on_hair = [cv2.pointPolygonTest(hair, (x, y), False) > 0 for x, y in mark.tolist()]
+        on_head = [cv2.pointPolygonTest(head, (x, y), False) > 0 for x, y in mark.tolist()]
+        assert np.mean(on_hair) < 0.1, id
+        assert all(on_head), id
+
+
+def test_freckles_fade_where_the_skin_is_red_or_wrinkled() -> None:
+    for label in ("furious", "disgusted"):
+        assert opacity("frecklesLeft", shown(label)) < 0.4 * opacity("frecklesLeft", shown())
+
+
+def test_any_two_expressions_differ_clearly_at_400x300() -> None:
+    """Mean differences: as much as those of the astronaut, all of them and the basic ones."""
+    wide = Renderer(MODEL, (400, 300))
+    pictures = {
+        label: wide.render(still_vector(MODEL, label)).astype(np.int16) for label in EXPRESSIONS
+    }
+    for first, second in combinations(EXPRESSIONS, 2):
+        apart = np.abs(pictures[first] - pictures[second]).mean()
+        assert apart >= (5.6 if {first, second} <= set(SEVEN) else 5.15), (first, second)
 
 
 def test_every_two_expressions_can_be_told_apart() -> None:
@@ -249,7 +306,7 @@ def lids_apart(vector: Vector) -> float:
 @pytest.mark.parametrize("label", LABELS)
 def test_a_blink_shuts_the_eyes_whatever_is_felt(label: str) -> None:
     felt = MODEL.vector(MODEL.expression(label))
-    blink = Mixer(MODEL).mix(Layers(expression=felt, viseme=MODEL.vector({}), blink=1.0))
+    blink = Mixer(MODEL).mix(Layers(expression=felt, viseme=MODEL.vector({}), blink=(1.0, 1.0)))
     turned = [name.startswith("head") for name in MODEL.channels]
     assert lids_apart(np.where(turned, 0, blink).astype(np.float32)) < 1
 
@@ -325,6 +382,15 @@ def test_every_two_visemes_can_be_told_apart() -> None:
     for first, second in combinations(VISEMES, 2):
         changed = cv2.absdiff(mouths[first], mouths[second]).max(axis=2) > 40
         assert changed.sum() > 60, (first, second)
+
+
+def test_any_two_visemes_differ_at_400x300() -> None:
+    wide = Renderer(MODEL, (400, 300))
+    pictures = {
+        name: wide.render(still_vector(MODEL, viseme=name)).astype(np.int16) for name in VISEMES
+    }
+    for first, second in combinations(VISEMES, 2):
+        assert np.abs(pictures[first] - pictures[second]).mean() >= 0.3, (first, second)
 
 
 @pytest.mark.parametrize("label", LABELS)

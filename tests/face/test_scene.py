@@ -1,13 +1,14 @@
 """Scenes: who does what when, as a script says."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hri.core.errors import AuthoringError, HriError
-from hri.core.signals import Expression, Phoneme, Speech
+from hri.core.signals import Expression, Phoneme, Span, Speech
 from hri.face import load_face
 from hri.face.lips.phonemes import sound_of
 from hri.face.scene import Moment, Scene, load_scene, scene_of
@@ -219,3 +220,15 @@ def test_broken_phoneme_times_are_refused(scene, tmp_path: Path, text: str) -> N
     (tmp_path / "a.json").write_text(text)
     with pytest.raises(AuthoringError, match="hri say --phonemes"):
         scene('[[step]]\nsound = "a.wav"\nphonemes = "a.json"\n')
+
+
+def test_a_caption_is_the_sentence_that_is_heard() -> None:
+    spans = (
+        Span("[gasp]", 0, 0.0, 0.3),
+        Span("Who is there?", 7, 0.5, 1.2),
+        Span("Me.", 21, 2, 2.4),
+    )
+    speech = Speech("[gasp] Who is there? Me.", np.zeros(24000, np.int16), 8000, sentences=spans)
+    shown = [speech.caption(time) for time in (0.0, 0.4, 0.6, 1.9, 2.0, 3.0)]
+    assert shown == ["[gasp]", "[gasp]", "Who is there?", "Who is there?", "Me.", "Me."]
+    assert replace(speech, sentences=()).caption(1.0) == speech.text

@@ -25,6 +25,7 @@ MOOD_S = 4.0
 LOOKS = (Gaze(0.0, 0.0), Gaze(0.12, -0.05), Gaze(0.0, 0.0), Gaze(-0.1, 0.06))
 """Where it looks meanwhile: at someone in front of it who moves a little."""
 TARGETS = 50
+SMALL, SMALL_MS = (320, 240), 5.0
 BLEND_MS, FRAME_MS, SLOWEST_MS = 0.03, 6.0, 9.0
 
 
@@ -62,7 +63,17 @@ def rows(model: FaceModel, vectors: Sequence[Vector], size: tuple[int, int]) -> 
     shapes = {"shapes": len(model.display.items), "frames": len(vectors)}
     yield amount(f"{what}, median", float(np.median(taken)), "ms", at_most(FRAME_MS), **shapes)
     yield amount(f"{what}, p95", float(np.percentile(taken, 95)), "ms", at_most(SLOWEST_MS))
+    yield batch(model, vectors)
     yield blend(model)
+
+
+def batch(model: FaceModel, vectors: Sequence[Vector]) -> Row:
+    """A small frame, drawn into an array that is used again, as for a data set."""
+    renderer, (width, height) = Renderer(model, SMALL), SMALL
+    out = np.empty((height, width, 3), np.uint8)
+    taken = [1e3 * seconds(partial(renderer.render, vector, out)) for vector in vectors]
+    what = f"frame in a batch, {width}x{height}, {model.name}, median"
+    return amount(what, float(np.median(taken)), "ms", at_most(SMALL_MS), frames=len(vectors))
 
 
 def blend(model: FaceModel) -> Row:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from functools import cache, partial
 from pathlib import Path
 
 from hri.cli.face.options import FACE, pixels
@@ -55,8 +56,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     model = load_face(options.face)
     with ResourceManager((), RealClock()) as resources:
-        voice = open_voice(resources, options.voice)
-        scene = load_scene(options.script, model, voice.synthesize)
+        # The usual voice, which is always there, is opened only where something is said.
+        voice = cache(partial(open_voice, resources, options.voice))
+        if options.voice != PLAIN_VOICE:
+            voice()
+        scene = load_scene(options.script, model, lambda text: voice().synthesize(text))
     if options.wav is not None:
         sound = scene.sound()
         if sound is None:

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Samples
-from hri.face.lips.lipsync import ARTICULATORS, LEAST_WEIGHT, LipTrack, Values
+from hri.face.lips.lipsync import LEAST_WEIGHT, LipTrack, Values
+from hri.face.lips.spans import ARTICULATORS
 from hri.face.vocabulary import VISEMES
 
 STEP = 0.02

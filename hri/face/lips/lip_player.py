@@ -8,7 +8,9 @@ import numpy as np
 
 from hri.core.signals import Speech
 from hri.face.lips.envelope import EnvelopeTrack
-from hri.face.lips.lipsync import ARTICULATORS, LipTrack, PhonemeTrack
+from hri.face.lips.lipsync import LipTrack, PhonemeTrack
+from hri.face.lips.loudness import Loudness
+from hri.face.lips.spans import ARTICULATORS
 from hri.face.model import FaceModel
 from hri.face.motion.spring import Follower, Spring, Values
 from hri.face.vocabulary import VISEMES
@@ -16,8 +18,8 @@ from hri.face.vocabulary import VISEMES
 PICTURE_LEAD = 0.05
 """Seconds by which the track of the lips is read ahead of the sound: one frame until the
 picture is seen, and a little more, since lips that are early look right and late ones do not."""
-RAISED = {"browOuterUp": 0.4, "browInnerUp": 0.25, "headPitch": 0.12}
-"""Weights that a stressed syllable adds."""
+RAISED = {"browOuterUp": 0.5, "browInnerUp": 0.3, "headPitch": -0.35, "headY": 0.4}
+"""Weights that an accent adds: brows go up as the head dips."""
 
 _LIPS = 70.0
 """Stiffness in radians a second: shut within 100 ms of a cut."""
@@ -75,7 +77,7 @@ class LipPlayer:
 def lip_track(speech: Speech) -> LipTrack:
     """The track of a speech: by its phonemes, or by its sound alone when it has none."""
     if speech.phonemes:
-        return PhonemeTrack(speech.phonemes)
+        return PhonemeTrack(speech.phonemes, Loudness(speech.samples, speech.rate))
     return EnvelopeTrack(speech.samples, speech.rate)
 
 

@@ -13,40 +13,32 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from itertools import groupby
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Phoneme
-from hri.face.lips.phonemes import BREATH, Sound, sound_of
+from hri.face.lips.accents import Accents
+from hri.face.lips.loudness import Loudness
+from hri.face.lips.spans import (
+    ARTICULATORS,
+    CLOSED,
+    PRESSED,
+    PULL,
+    SHORTEST_ROUNDING,
+    SPREAD,
+    UNYIELDING,
+    VisemeSpan,
+    rounds,
+    shown,
+    spoken,
+)
 from hri.face.vocabulary import VISEMES
 
 Values = NDArray[np.float64]
-
-ARTICULATORS = ("lips", "jaw", "tongue")
-"""What moves at its own pace."""
-
-PULL = {
-    "sil": (0.7, 0.7, 0.7),
-    "PP": (1.0, 0.9, 0.1),
-    "FF": (1.0, 0.8, 0.1),
-    "TH": (0.6, 0.6, 1.0),
-    "DD": (0.35, 0.6, 1.0),
-    "kk": (0.2, 0.4, 0.8),
-    "CH": (0.9, 0.9, 0.7),
-    "SS": (0.6, 1.0, 0.8),
-    "nn": (0.35, 0.5, 1.0),
-    "RR": (0.6, 0.5, 0.6),
-    "aa": (0.7, 1.0, 0.7),
-    "E": (0.6, 0.8, 0.7),
-    "ih": (0.7, 0.7, 0.7),
-    "oh": (0.9, 0.9, 0.7),
-    "ou": (1.0, 0.8, 0.7),
-}
-"""How hard a viseme pulls at lips, jaw and tongue, 0 to 1."""
 
 FADE = {"lips": (60.0, 50.0), "jaw": (30.0, 25.0), "tongue": (60.0, 60.0)}
 """A pull falls by e every 1 / FADE seconds before the sound, and after it. Cohen & Massaro measure
@@ -60,15 +52,8 @@ LEAST_WEIGHT = 1e-3
 FASTEST = {"lips": 1 / 0.06, "jaw": 1 / 0.08, "tongue": 1 / 0.05}
 """Of the full way a second."""
 
-ROUNDED = ("CH", "oh", "ou")
 ROUND_LEAD = 0.05
 """Seconds by which rounded lips set out early."""
-SHORTEST = 0.07
-"""Seconds; shorter shapes are left out, their neighbors take the time (Rhubarb Lip Sync)."""
-PRESSED = "PP"
-CLOSED = (PRESSED, "FF")
-UNYIELDING = (*CLOSED, "sil")
-"""Shapes that take no time from a neighbor that is left out."""
 CLOSURE = 0.045
 """Seconds that lips are shut fully at least; with the ends of their ways that makes 55 ms of 0.9
 and more, which a frame at 30 Hz always sees."""
@@ -79,17 +64,10 @@ when the vowel sounds are late."""
 CHANGE = 1 / FASTEST["lips"]
 """Seconds between one closure and another kind of closure."""
 
-SPLIT = 0.6
-"""Share of a gliding sound that its first viseme gets (Rhubarb Lip Sync)."""
 STRESSED = 1.12
 """How much wider the jaw opens for a stressed vowel."""
-ECHO = 0.6
-"""How far an h opens the mouth to the vowel after it."""
-
-EMPHASIS_RISE, EMPHASIS_FALL = 0.12, 0.3
-"""Seconds in which brows go up before the middle of a stressed vowel, and come down after it."""
-FULL_EMPHASIS = 0.16
-"""Seconds; a stressed vowel as long as this lifts the brows fully."""
+MOST = 1.2
+"""The largest weight, of a stressed vowel that is shouted."""
 
 STEP = 0.005
 """Seconds between two points of a track; between them it is straight."""
@@ -98,6 +76,12 @@ _HALO = 24
 """Steps that the limit of speed looks around: 1.2 of the slowest full way, and a closure."""
 
 _INDEX = {viseme: number for number, viseme in enumerate(VISEMES)}
+OPENED = {
+    "lips": np.array([0.5 * (viseme in SPREAD) for viseme in VISEMES]),
+    "jaw": np.ones(len(VISEMES)),
+    "tongue": np.zeros(len(VISEMES)),
+}
+"""How far each viseme follows the loudness: the jaw fully, lips half and only where they spread."""
 _CLOSING = np.array([viseme in CLOSED for viseme in VISEMES])
 
 
@@ -106,14 +90,14 @@ class LipTrack(ABC):
 
     @abstractmethod
     def shape(self, position: float) -> Values:
-        """Weights [visemes, articulators], 0 to 1.2, at a position in the speech, seconds.
+        """Weights [visemes, articulators], 0 to MOST, at a position in the speech, seconds.
 
         Rows are as in VISEMES, that of "sil" always 0; columns are as in ARTICULATORS.
         """
 
     @abstractmethod
     def emphasis(self, position: float) -> float:
-        """Stress of the current syllable, 0 to 1; the brows follow it."""
+        """How accented the voice is, 0 to 1; brows and head follow it."""
 
     def weights(self, position: float, articulator: str = "lips") -> dict[str, float]:
         """The shape of one of ARTICULATORS by viseme, those at rest left out."""
@@ -121,30 +105,11 @@ class LipTrack(ABC):
         return {VISEMES[number]: float(weights[number]) for number in np.flatnonzero(weights)}
 
 
-@dataclass(frozen=True, slots=True)
-class VisemeSpan:
-    """A viseme that the mouth is at over some time."""
-
-    viseme: str
-    start: float
-    """Seconds from the start of the speech."""
-    end: float
-    strength: float = 1.0
-    """How far the mouth goes, 0 to 1."""
-    stressed: bool = False
-    """Whether it is a vowel that the voice stresses."""
-
-    @property
-    def duration(self) -> float:
-        """Seconds."""
-        return self.end - self.start
-
-
 class PhonemeTrack(LipTrack):
     """A mouth that follows phoneme times; worked out a second at a time, when it is asked for."""
 
-    def __init__(self, phonemes: Sequence[Phoneme]) -> None:
-        """Raises ValueError without any phoneme."""
+    def __init__(self, phonemes: Sequence[Phoneme], loudness: Loudness | None = None) -> None:
+        """The mouth opens as `loudness` says. Raises ValueError without any phoneme."""
         if not phonemes:
             raise ValueError("no phonemes - follow the loudness of the voice instead")
         self.segments = tuple(shown(spoken(phonemes)))
@@ -160,9 +125,8 @@ class PhonemeTrack(LipTrack):
         self._pulls = (rest[0], *pulls, rest[1])
         self._starts = np.array([segment.start for segment in self._pulls])
         self._ends = np.array([segment.end for segment in self._pulls])
-        stresses = [segment for segment in self.segments if segment.stressed]
-        self._stressed = np.array([(s.start + s.end) / 2 for s in stresses])
-        self._stress = np.array([min(s.duration / FULL_EMPHASIS, 1.0) for s in stresses])
+        self._accents = Accents(self.segments, loudness)
+        self._loudness = loudness
         self._chunks: dict[int, Values] = {}
 
     def shape(self, position: float) -> Values:
@@ -175,11 +139,7 @@ class PhonemeTrack(LipTrack):
         return shape
 
     def emphasis(self, position: float) -> float:
-        if not len(self._stressed):
-            return 0.0
-        away = position - self._stressed
-        share = np.clip(1 - np.maximum(-away / EMPHASIS_RISE, away / EMPHASIS_FALL), 0, 1)
-        return float((self._stress * share * share * (3 - 2 * share)).max())
+        return self._accents.at(position)
 
     def _at(self, number: int) -> Values:
         chunk, place = divmod(number, _PER_CHUNK)
@@ -198,10 +158,12 @@ class PhonemeTrack(LipTrack):
         shut = [
             c for c in self._closures if times[0] - REACH < c.end and c.start < times[-1] + REACH
         ]
-        shapes = [
-            _limited(_closed(_blended(near, times, articulator), shut, times), articulator)
-            for articulator in ARTICULATORS
-        ]
+        louder = 0.0 if self._loudness is None else self._loudness.at(times)[:, None] - 1
+        shapes = []
+        for articulator in ARTICULATORS:
+            opened = _blended(near, times, articulator) * (1 + louder * OPENED[articulator])
+            wanted = _closed(np.minimum(opened, MOST), shut, times)
+            shapes.append(_limited(wanted, articulator))
         _part(shapes[ARTICULATORS.index("lips")], shut, times[_HALO:-_HALO])
         track = np.stack(shapes, axis=-1)
         track[:, _INDEX["sil"]] = 0.0
@@ -212,8 +174,7 @@ def _blended(segments: Sequence[VisemeSpan], times: Values, articulator: str) ->
     """The weighted mean of all shapes, [times, visemes]."""
     before, after = FADE[articulator]
     lead = ROUND_LEAD if articulator == "lips" else 0.0
-    starts = np.array([s.start - lead * (s.viseme in ROUNDED) for s in segments])
-    ends = np.array([segment.end for segment in segments])
+    starts, ends = _times(segments, lead)
     early, late = starts - times[:, None], times[:, None] - ends
     place = ARTICULATORS.index(articulator)
     pulls = np.array([PULL[segment.viseme][place] for segment in segments])
@@ -225,6 +186,21 @@ def _blended(segments: Sequence[VisemeSpan], times: Values, articulator: str) ->
         visemes[number, _INDEX[segment.viseme]] = segment.strength * widened
     blended: Values = pulls @ visemes
     return blended
+
+
+def _times(segments: Sequence[VisemeSpan], lead: float) -> tuple[Values, Values]:
+    """From when to when each shape pulls fully, seconds.
+
+    Shapes that round set out `lead` seconds early, and the one before lets go for them: a short sh
+    between two vowels would not be seen.
+    """
+    starts = np.array([segment.start - lead * rounds(segment) for segment in segments])
+    ends = np.array([segment.end for segment in segments])
+    for number, (one, other) in enumerate(pairwise(segments)):
+        if rounds(other) and not rounds(one) and one.viseme not in UNYIELDING:
+            latest = max(starts[number + 1], one.start + SHORTEST_ROUNDING)
+            ends[number] = min(ends[number], latest)
+    return starts, ends
 
 
 def closures(segments: Sequence[VisemeSpan]) -> dict[int, VisemeSpan]:
@@ -295,74 +271,3 @@ def _limited(shape: Values, articulator: str) -> Values:
     limited = np.maximum(ahead, behind)[_HALO:-_HALO]
     limited[:, ~_CLOSING] *= -1
     return np.asarray(limited)
-
-
-def spoken(phonemes: Sequence[Phoneme]) -> Iterator[VisemeSpan]:
-    """Every sound as a shape: gliding sounds split, an `h` shaped by what follows it.
-
-    In order, without overlaps and gaps, whatever the order and the lengths of the phonemes.
-    """
-    ordered = sorted(phonemes, key=lambda phoneme: phoneme.start)
-    for number, phoneme in enumerate(ordered):
-        sound = sound_of(phoneme.name)
-        end = phoneme.start + max(phoneme.duration, 0.0)
-        if number + 1 < len(ordered):
-            following = ordered[number + 1]
-            end = min(end, following.start)
-            if phoneme.name == BREATH:
-                vowel = sound_of(following.name)
-                sound = Sound(vowel.visemes[:1], ECHO * vowel.strength)
-        middle = phoneme.start + SPLIT * (end - phoneme.start)
-        bounds = (phoneme.start, end) if len(sound.visemes) == 1 else (phoneme.start, middle, end)
-        for place, viseme in enumerate(sound.visemes):
-            start, stop = bounds[place : place + 2]
-            stressed = phoneme.stressed and place == 0
-            yield VisemeSpan(viseme, start, stop, sound.strength, stressed)
-        if number + 1 < len(ordered) and end < following.start:
-            yield VisemeSpan("sil", end, following.start)
-
-
-def shown(segments: Iterator[VisemeSpan]) -> list[VisemeSpan]:
-    """The shapes that there is time for: equal ones joined, those that are too short left out.
-
-    The weakest go first, and their time goes to their neighbors, so that of many short shapes
-    the strong ones become long enough. Closures always stay and need no more time; what stands
-    between closures and pauses alone stays, too, since nothing could take its place.
-    """
-    left = _joined(segments)
-    before, after = list(range(-1, len(left) - 1)), list(range(1, len(left) + 1))
-    is_left = [True] * len(left)
-    for number in sorted(range(len(left)), key=lambda n: _rank(left[n])):
-        segment, (earlier, later) = left[number], (before[number], after[number])
-        has_earlier = earlier >= 0 and left[earlier].viseme not in UNYIELDING
-        has_later = later < len(left) and left[later].viseme not in UNYIELDING
-        is_needed = segment.viseme in CLOSED or not (has_earlier or has_later)
-        if is_needed or segment.duration >= SHORTEST:
-            continue
-        middle = segment.start + segment.duration * has_earlier / (has_earlier + has_later)
-        if has_earlier:
-            left[earlier] = replace(left[earlier], end=middle)
-        if has_later:
-            left[later] = replace(left[later], start=middle)
-        is_left[number] = False
-        if earlier >= 0:
-            after[earlier] = later
-        if later < len(left):
-            before[later] = earlier
-    return [segment for segment, stays in zip(left, is_left, strict=True) if stays]
-
-
-def _rank(segment: VisemeSpan) -> tuple[bool, float]:
-    """How dear a shape is: short pauses are left out first."""
-    return segment.viseme != "sil", PULL[segment.viseme][0] * segment.duration
-
-
-def _joined(segments: Iterator[VisemeSpan]) -> list[VisemeSpan]:
-    """Neighbors of the same viseme made one."""
-    joined = []
-    for _, equal in groupby(segments, key=lambda segment: segment.viseme):
-        run = list(equal)
-        strength = max(segment.strength for segment in run)
-        stressed = any(segment.stressed for segment in run)
-        joined.append(VisemeSpan(run[0].viseme, run[0].start, run[-1].end, strength, stressed))
-    return joined

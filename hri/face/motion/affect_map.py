@@ -17,7 +17,10 @@ from numpy.typing import NDArray
 from hri.core.errors import HriError
 from hri.face.drawing.baking import Vector
 from hri.face.model import FaceModel
+from hri.face.vocabulary import EXPRESSIONS
 
+UNPLACED = -0.4
+"""Valence of the expressions that stand at no point: guilty, rejected, confused and the like."""
 NEIGHBORS = 4
 """As many expressions are blended at most."""
 CONTENT, SMILE = (0.6, -0.5), 0.35
@@ -31,7 +34,7 @@ class AffectMap:
     """Expressions of one face by valence and arousal."""
 
     def __init__(self, model: FaceModel) -> None:
-        points = {**model.settings.affect, "neutral": (0.0, 0.0)}
+        self._places = points = {**model.settings.affect, "neutral": (0.0, 0.0)}
         self.labels = tuple(label for label in points if label in model.expressions)
         self._names = (*self.labels, "content")
         self._points = np.array(
@@ -55,6 +58,12 @@ class AffectMap:
         numbers, shares = self._nearest(valence, arousal)
         weights: Vector = (shares @ self._shown[numbers]).astype(np.float32)
         return weights
+
+    def valence(self, label: str) -> float:
+        """How pleasant an expression is, -1 to 1; 0 for a state such as "thinking"."""
+        if label in self._places:
+            return self._places[label][0]
+        return UNPLACED if label in EXPRESSIONS and label != "asleep" else 0.0
 
     def shares(self, valence: float, arousal: float) -> dict[str, float]:
         """How much of which expression that is: labels, and "content", with shares that make 1."""

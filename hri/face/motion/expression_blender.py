@@ -11,16 +11,21 @@ from hri.core.signals import Expression
 from hri.face.model import FaceModel
 from hri.face.motion.affect_map import AffectMap
 from hri.face.motion.lids import Lids
+from hri.face.motion.run_up import RunUp
 from hri.face.motion.spring import ARRIVAL, Follower, Values
 from hri.face.regions import NAMES, by_region
 from hri.face.settings import Timing
 
 MOOD = 0.6
 """Share of an expression that a mood shows: it is weaker than an explicit expression."""
+OBEYED = 0.25
+"""Presence of an expression from which on a mood against it does not show: who says in fear that
+the battery is low does not smile."""
 COVERING = ("asleep", "error")
 """States whose look hides what is expressed; that of the others shows where nothing is."""
-PACES = {**dict.fromkeys(NAMES, 1.0), "brows": 1.3, "lids": 1.3, "eyes": 1.3, "head": 0.7}
-"""How fast an expression sets in, of its onset: brows and eyes lead, the head follows."""
+PACES = {**dict.fromkeys(NAMES, 1.0), "brows": 1.6, "lids": 1.3, "eyes": 1.3, "head": 0.7}
+"""How fast an expression sets in, of its onset: brows and eyes lead, the head follows. Brows are so
+fast that they lead in spite of their run-up."""
 
 _BELOW = 4.0
 """Stiffness of mood and state, radians a second."""
@@ -34,6 +39,8 @@ class ExpressionBlender:
     def __init__(self, model: FaceModel) -> None:
         self.label = ""
         """Of the expression that is shown, or was last asked for; empty for none."""
+        self.displeasure = 0.0
+        """How far an unpleasant expression rules out a smile, 0 to 1."""
         self._model = model
         self._affect = AffectMap(model)
         self._lids = Lids(model)
@@ -42,9 +49,11 @@ class ExpressionBlender:
         self._goal = np.zeros(size + 1)
         self._shown = Follower(self._goal, np.append(by_region(model.channels, PACES), 1.0))
         self._timing, self._stiffness = Timing(), _CHANGE
+        self._run_up, self._is_new = RunUp(model.channels), False
         self._lasts: float | None = None
         self._falls_at = math.inf
         self._mood: tuple[float, float] | None = None
+        self._contrary = Follower(0.0)
         self._state = ""
         self._below_goal = np.zeros(size)
         self._below = Follower(self._below_goal)
@@ -66,6 +75,7 @@ class ExpressionBlender:
         else:
             seconds = before.offset_s if is_neutral else self._timing.onset_s
             self._stiffness = ARRIVAL / seconds
+            self._is_new = not is_neutral
         self.label = expression.label
 
     def fall(self) -> None:
@@ -91,6 +101,11 @@ class ExpressionBlender:
         shown = goal[:-1] + (1 - goal[-1]) * self._below_goal
         return self._lids.shut(shown)
 
+    @property
+    def arousal(self) -> float:
+        """Of the expression that is shown, -1 to 1; 0 where it is about something else."""
+        return self._model.settings.affect.get(self.label, (0.0, 0.0))[1]
+
     def follow(self, now: float, dt: float) -> Values:
         """The weights of all channels: the mood, and in its place as much expression as there is.
 
@@ -101,10 +116,29 @@ class ExpressionBlender:
             self._falls_at, self._lasts = now + lasts, None
         if now >= self._falls_at:
             self.fall()
-        shown = self._shown.follow(self._wanted(), dt, self._stiffness)
+        shown = self._shown.follow(self._goal_at(now), dt, self._stiffness)
         below = self._below.follow(self._below_goal, dt, _BELOW)
-        mixed: Values = shown[:-1] + (1 - shown[-1]) * below
+        is_unpleasant = self._affect.valence(self.label) < 0
+        self.displeasure = min(shown[-1] / OBEYED, 1.0) if is_unpleasant else 0.0
+        contrary = float(self._contrary.follow(float(self._is_contrary), dt, _CHANGE))
+        covered = shown[-1] + contrary * (min(shown[-1] / OBEYED, 1.0) - shown[-1])
+        mixed: Values = shown[:-1] + (1 - covered) * below
         return mixed
+
+    @property
+    def _is_contrary(self) -> bool:
+        """Whether the mood is pleasant and what is expressed is not, or the other way round."""
+        is_mood = self._mood is not None and self._state not in self._model.expressions
+        valence = self._mood[0] if is_mood and self._mood is not None else 0.0
+        return valence * self._affect.valence(self.label) < 0
+
+    def _goal_at(self, now: float) -> Values:
+        """What is wanted, with the run-up of head and brows."""
+        wanted = self._wanted()
+        if self._is_new:
+            self._run_up.begin(self._shown.value, wanted, self._timing.onset_s, now)
+            self._is_new = False
+        return self._run_up.goal(wanted, now)
 
     def _wanted(self) -> Values:
         """What an expression asks for, and how much it is there."""

@@ -38,7 +38,9 @@ LARGEST = 2.0
 GAZE = ("gazeX", "gazeY")
 """Names of a gesture for where the eyes look, as `Gaze` has it: whatever it takes on a face."""
 EXTRAS = (
-    "antennaDroop", "antennaGlow", "blush", "eyeDroop", "pupilWide", "tear", "tongueUp",
+    "antennaDroop", "antennaGlow", "antennaPerk", "blush", "bodyShrink", "bodyTall", "bodyWide",
+    "earGlow", "eyeDroop", "leafFlat", "leafFoldRight", "leafOut", "mouthWavy", "pupilWide", "tear",
+    "tongueUp",
 )  # fmt: skip
 """What a drawn face may have beside ARKit's targets."""
 KNOWN = frozenset((*ARKIT, *PAIRED, *MOTIONS, *TURNS, *GAZE, *EXTRAS))

@@ -1,34 +1,51 @@
-"""Idle life: blinks, small eye movements, glances, breathing and sway.
+"""Idle life: small eye movements, glances, breathing and sway; `blinking` has the blinks.
 
-All of it is a function of (seed, t) alone: time is cut into slots, and what happens in a slot is
-drawn from a hash of seed, kind and number of the slot. No state, and any time can be asked for;
-each kind draws for itself, so that one more does not shift the others.
+All of it is a function of (seed, t) alone. Looks and breaths come in rhythms without a grid below
+them, and each look and breath is drawn from a hash of seed, kind and number. No state, and any time
+can be asked for; each kind draws for itself, so that one more does not shift the others.
 """
 
 from __future__ import annotations
 
 import math
-import zlib
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import lru_cache
-from statistics import NormalDist
 
 from hri.core.signals import Gaze
-from hri.face.settings import BlinkSettings, IdleSettings
+from hri.face.motion.chance import chance, drift, log_normal, normal
+from hri.face.motion.rhythm import Rhythm
+from hri.face.settings import IdleSettings
 
-BLINK_SLOT = 1.2
-"""Seconds; at most one blink (or one double blink) begins in each."""
-SACCADE_SLOT = 0.8
+Place = tuple[float, float]
+"""To the right and up."""
 
 _SACCADE_TIME = 0.05
 """Seconds a small eye movement takes (25 ms + 2.4 ms a degree: Lee, Badler & Badler 2002)."""
 _GLANCE_TIME = 0.07
 """Seconds a look away takes, there or back: the same for 20 degrees."""
-_SWAY_HZ = (0.07, 0.13, 0.23)
+_FIXATIONS = Rhythm("fixation", mean=1.2, spread=0.7, least=0.15)
+"""Seconds that the eyes rest on one place of what they look at."""
+_MICROSACCADES = Rhythm("microsaccade", mean=0.6, spread=0.4, least=0.15)
+"""Seconds between microsaccades: most are .3 to 1."""
+_MICRO = (0.1, 0.3)
+"""How far a microsaccade leads from the middle of a place, as a share of the larger movements: with
+the usual 1.25 degrees for those, most microsaccades are .2 to .5 degrees."""
+_AGAIN = 0.3
+"""Share of looks that are at a place of the last few again."""
+_FEW = 4
+_LINGER = (1.0, 3.0)
+"""Seconds of a look away that lingers."""
+_BREATHS = Rhythm("breath", mean=1.0, spread=0.16, least=0.5)
+_BREATH_SPREAD = 0.22
+"""Of the depth of breaths; both are the deviations of young people at rest (Tobin et al. 1988)."""
+_INHALED = 0.4
+"""Share of a breath after which the air is in: people breathe out more slowly than in."""
+_SLOW, _FAST = 0.35, 0.95
+"""Knots a second of the two waves of a drift: about as fast as sines of 0.07 and 0.19 Hz."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Glances:
     """How long the eyes stay on someone and how long away: means and deviations, seconds."""
 
@@ -36,6 +53,15 @@ class Glances:
     away: tuple[float, float]
     largest: float = 22.7
     """Degrees."""
+    linger: float = 0.0
+    """Share of looks away that stay there longer."""
+    rhythm: Rhythm = field(init=False)
+    """Of looks away, from one to the next."""
+
+    def __post_init__(self) -> None:
+        mean = self.stay[0] + self.away[0]
+        spread = math.hypot(self.stay[1], self.away[1]) / mean
+        object.__setattr__(self, "rhythm", Rhythm("glance", mean, spread, 5 * _GLANCE_TIME))
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,11 +78,13 @@ class Life:
 
 
 STATES: Mapping[str, Life] = {
-    "resting": Life(glances=Glances((4.0, 2.5), (0.8, 0.4))),
+    "resting": Life(glances=Glances((4.0, 2.5), (0.8, 0.4), linger=0.15)),
     "attending": Life(blinks=0.3, glances=Glances((9.0, 2.0), (0.3, 0.1), 10.0), saccades=0.8),
     "listening": Life(blinks=0.8, glances=Glances((7.9, 1.57), (0.43, 0.23)), sway=0.8),
-    "talking": Life(blinks=1.5, glances=Glances((3.13, 3.17), (0.93, 0.8), 27.5), sway=1.3),
-    "thinking": Life(blinks=0.7, glances=Glances((1.6, 0.8), (0.9, 0.4)), sway=0.8, breaths=0.9),
+    "talking": Life(blinks=1.5, glances=Glances((3.13, 3.17), (0.93, 0.8), 27.5, 0.1), sway=1.3),
+    "thinking": Life(
+        blinks=0.7, glances=Glances((1.6, 0.8), (0.9, 0.4), linger=0.2), sway=0.8, breaths=0.9
+    ),
     "asleep": Life(blinks=0.0, saccades=0.0, sway=0.35, breaths=0.6, depth=1.8),
     "error": Life(blinks=0.3, saccades=0.2, sway=0.15, breaths=0.5, depth=0.5),
 }
@@ -72,98 +100,81 @@ _TYPICAL = 11.0
 """Degrees of a look away that is as large as the face's setting says."""
 
 
-@lru_cache(maxsize=4096)
-def chance(seed: int, kind: str, slot: int) -> float:
-    """A number from 0 to 1 that looks random, always the same for the same arguments."""
-    return zlib.crc32(f"{seed}/{kind}/{slot}".encode()) / 2**32
-
-
-# --- blinks ---
-
-
-def lid_closure(blink: BlinkSettings, elapsed: float) -> float:
-    """How far the lids are shut, 0 to 1, at a time since the blink began, seconds."""
-    if elapsed <= 0:
-        return 0.0
-    if elapsed < blink.close_s:
-        return _smooth(elapsed / blink.close_s)
-    elapsed -= blink.close_s + blink.hold_s
-    return 1.0 if elapsed < 0 else 1 - _smooth(elapsed / blink.open_s)
-
-
-def blink_length(blink: BlinkSettings) -> float:
-    """Seconds from open to open."""
-    return blink.close_s + blink.hold_s + blink.open_s
-
-
-def blink_starts(blink: BlinkSettings, seed: int, slot: int, rate: float) -> tuple[float, ...]:
-    """When blinks begin in a slot: none, one, or two for a double; `rate` is a minute."""
-    if chance(seed, "blink", slot) >= rate * BLINK_SLOT / 60:
-        return ()
-    start = (slot + 0.5 * chance(seed, "blink start", slot)) * BLINK_SLOT
-    if chance(seed, "double", slot) < blink.double:
-        return start, start + blink_length(blink)
-    return (start,)
-
-
-def blink_closure(blink: BlinkSettings, seed: int, t: float, rate: float | None = None) -> float:
-    """How far the lids are shut by the blinks of idle life; `rate` a minute replaces the usual."""
-    rate = blink.rate if rate is None else rate
-    slot = math.floor(t / BLINK_SLOT)
-    closures = (
-        lid_closure(blink, t - start)
-        for number in (slot - 2, slot - 1, slot)
-        for start in blink_starts(blink, seed, number, rate)
-    )
-    return max(closures, default=0.0)
-
-
 # --- eyes ---
 
 
 def wandering(idle: IdleSettings, seed: int, t: float, state: str = "resting") -> Gaze:
     """Where the eyes drift around what they look at: small jumps, and now and then a look away."""
     life = STATES[state]
-    slot = math.floor(t / SACCADE_SLOT)
-    since = t - (slot + 0.3 * chance(seed, "saccade time", slot)) * SACCADE_SLOT
-    share = _smooth(since / _SACCADE_TIME)
-    old, new = _fixation(idle, seed, slot - 1), _fixation(idle, seed, slot)
+    size = life.saccades * idle.saccade
     x, y = _glance(idle, life.glances, seed, t) if life.glances else (0.0, 0.0)
-    return Gaze(
-        life.saccades * (old[0] + (new[0] - old[0]) * share) + x,
-        life.saccades * (old[1] + (new[1] - old[1]) * share) + y,
-    )
+    if size:
+        for rhythm, place in ((_FIXATIONS, _fixation), (_MICROSACCADES, _microsaccade)):
+            jump = _jumping(rhythm, place, seed, t)
+            x, y = x + size * jump[0], y + size * jump[1]
+    return Gaze(x, y)
 
 
-def _fixation(idle: IdleSettings, seed: int, slot: int) -> tuple[float, float]:
-    angle = 2 * math.pi * chance(seed, "saccade angle", slot)
-    size = idle.saccade * chance(seed, "saccade size", slot)
+def _jumping(rhythm: Rhythm, place: Callable[[int, int], Place], seed: int, t: float) -> Place:
+    """At one place after the other, each drawn for a seed and the number of its beat."""
+    last = rhythm.beat(seed, t)
+    x, y = place(seed, last.number)
+    if last.since >= _SACCADE_TIME:
+        return x, y
+    left = 1 - _smooth(last.since / _SACCADE_TIME)
+    old = place(seed, rhythm.beat(seed, t, -1).number)
+    return x + (old[0] - x) * left, y + (old[1] - y) * left
+
+
+@lru_cache(maxsize=256)
+def _fixation(seed: int, number: int) -> Place:
+    number = _again("fixation", seed, number)
+    return _on_circle(seed, "saccade angle", number, chance(seed, "saccade size", number))
+
+
+@lru_cache(maxsize=256)
+def _microsaccade(seed: int, number: int) -> Place:
+    least, most = _MICRO
+    size = least + (most - least) * chance(seed, "microsaccade size", number)
+    return _on_circle(seed, "microsaccade angle", number, size)
+
+
+def _on_circle(seed: int, kind: str, number: int, size: float) -> Place:
+    """Up and down the eyes move less than to the sides."""
+    angle = 2 * math.pi * chance(seed, kind, number)
     return size * math.cos(angle), 0.6 * size * math.sin(angle)
 
 
-def _glance(idle: IdleSettings, glances: Glances, seed: int, t: float) -> tuple[float, float]:
-    """Each slot is one stay and one look away."""
-    length = glances.stay[0] + glances.away[0]
-    slot = math.floor(t / length)
-    away = _drawn(glances.away, seed, "glance length", slot)
-    away = min(max(away, 3 * _GLANCE_TIME), 0.6 * length)
-    spread = min(glances.stay[1] / glances.stay[0], 1.0)
-    start = slot * length + (length - away) * (0.5 + spread * (chance(seed, "glance", slot) - 0.5))
-    share = _smooth((t - start) / _GLANCE_TIME) * _smooth((start + away - t) / _GLANCE_TIME)
-    if share == 0.0:
+def _again(kind: str, seed: int, number: int) -> int:
+    """The number of the place to look at: a new one, or one of the last few."""
+    share = chance(seed, f"{kind} again", number) / _AGAIN
+    return number if share >= 1 else number - 1 - int(_FEW * share)
+
+
+def _glance(idle: IdleSettings, glances: Glances, seed: int, t: float) -> Place:
+    """Each beat is a look away and the stay after it."""
+    last, length = glances.rhythm.lasting(seed, t)
+    # Some time to stay has to be left until the next look away.
+    away = min(_time_away(glances, seed, last.number), 0.7 * length)
+    if last.since >= away:
         return 0.0, 0.0
+    share = _smooth(last.since / _GLANCE_TIME) * _smooth((away - last.since) / _GLANCE_TIME)
+    number = _again("glance", seed, last.number)
     # Magnitudes of Eyes Alive: most looks away are short ones. Those below 3 degrees are left out,
     # since small movements happen all the time anyway.
-    degrees = -6.9 * math.log(max(10 * chance(seed, "glance size", slot), 1e-6) / 15.7)
+    degrees = -6.9 * math.log(10 * chance(seed, "glance size", number) / 15.7)
     size = share * idle.aversion * min(degrees, glances.largest) / _TYPICAL
-    angle = math.radians(_way(chance(seed, "glance way", slot)))
+    angle = math.radians(_way(chance(seed, "glance way", number)))
     return size * math.cos(angle), size * math.sin(angle)
 
 
-def _drawn(of: tuple[float, float], seed: int, kind: str, slot: int) -> float:
-    """Normally distributed with a mean and a deviation."""
-    share = min(max(chance(seed, kind, slot), 1e-6), 1 - 1e-6)
-    return NormalDist(*of).inv_cdf(share)
+@lru_cache(maxsize=256)
+def _time_away(glances: Glances, seed: int, number: int) -> float:
+    if chance(seed, "glance lingers", number) < glances.linger:
+        least, most = _LINGER
+        return least + (most - least) * chance(seed, "glance length", number)
+    mean, deviation = glances.away
+    return max(mean + deviation * normal(seed, "glance length", number), 3 * _GLANCE_TIME)
 
 
 def _way(share: float) -> float:
@@ -182,14 +193,14 @@ def _way(share: float) -> float:
 def sway(idle: IdleSettings, seed: int, t: float, state: str = "resting") -> dict[str, float]:
     """How the head drifts and breathes: weights of its motions."""
     life = STATES[state]
-    drift = {
+    moves = {
         name: life.sway * idle.sway * share * _waves(seed, name, t)
         for name, share in (("headX", 0.6), ("headY", 0.35), ("headRoll", 0.7))
     }
     breath = breathing(idle, seed, t, life)
-    drift["headY"] -= 0.5 * idle.sway * breath
-    drift["headSize"] = 0.6 * idle.sway * breath
-    return drift
+    moves["headY"] -= 0.5 * idle.sway * breath
+    moves["headSize"] = 0.6 * idle.sway * breath
+    return moves
 
 
 def turning(idle: IdleSettings, seed: int, t: float, state: str = "resting") -> tuple[float, float]:
@@ -199,17 +210,20 @@ def turning(idle: IdleSettings, seed: int, t: float, state: str = "resting") -> 
 
 
 def breathing(idle: IdleSettings, seed: int, t: float, life: Life) -> float:
-    """-1 (out) to 1 (in), times the depth of a breath."""
-    rate = idle.breaths * life.breaths / 60
-    return life.depth * math.sin(2 * math.pi * (rate * t + chance(seed, "breath", 0)))
+    """-1 (out) to about 1 (in), times the depth of a breath; no two breaths are alike."""
+    t *= idle.breaths * life.breaths / 60
+    last, length = _BREATHS.lasting(seed, t)
+    phase = last.since / length
+    # Out is always as far, and how far in differs: so one breath goes on where the last one ends.
+    share = phase / _INHALED if phase < _INHALED else (1 - phase) / (1 - _INHALED)
+    depth = min(log_normal(seed, "breath depth", last.number, _BREATH_SPREAD), 1.6)
+    return life.depth * (2 * depth * _smooth(share) - 1)
 
 
 def _waves(seed: int, name: str, t: float) -> float:
-    """A few slow waves that never repeat together."""
-    return sum(
-        math.sin(2 * math.pi * (hertz * t + chance(seed, name, number))) / (1 + number)
-        for number, hertz in enumerate(_SWAY_HZ)
-    )
+    """A slow and a faster wave, which never repeat."""
+    slow, fast = drift(seed, "slow " + name, _SLOW * t), drift(seed, "fast " + name, _FAST * t)
+    return slow + 0.6 * fast
 
 
 def _smooth(x: float) -> float:

@@ -11,9 +11,12 @@ from hri.core.signals import Gaze
 from hri.face.model import FaceModel
 from hri.face.motion import idle
 from hri.face.motion.blinking import Blinks
+from hri.face.motion.lids import Closures
 from hri.face.motion.spring import Follower, Values
 from hri.face.vocabulary import TURNS
 
+TIRED = -0.75
+"""Arousal of who is wholly tired: that of the expression "tired"."""
 _STATE, _AROUSAL = 5.0, 1.5
 """Stiffness, radians a second: of going from one state to another, and of pupils."""
 
@@ -26,8 +29,8 @@ class IdlePose:
     """Weights of the head's motions and of the pupils."""
     drift: Gaze
     """How far the eyes have wandered."""
-    blink: float
-    """How far the lids are shut, 0 to 1."""
+    blink: Closures
+    """How far a blink shuts the eyes."""
 
 
 class IdleState:
@@ -55,8 +58,14 @@ class IdleState:
         """Something happened that may bring a blink; see `Blinks.cause`."""
         self._blinks.cause(why, now)
 
-    def follow(self, now: float, dt: float, *, shutting: bool = False) -> IdlePose:
-        """What life adds `dt` seconds after the last call; no blink while `shutting` the eyes."""
+    def follow(
+        self, now: float, dt: float, *, shutting: bool = False, shown: float = 0.0
+    ) -> IdlePose:
+        """What life adds `dt` seconds after the last call.
+
+        No blink begins while the face is `shutting` its eyes. `shown` is the arousal of the
+        expression that is shown: who feels or looks tired blinks slowly.
+        """
         arousal = float(self._arousal.follow(self._arousal_goal, dt, _AROUSAL))
         shares = self._shares.follow(self._goal, dt, _STATE)
         states = [(s, float(n)) for s, n in zip(idle.STATES, shares, strict=True) if n > 1e-3]
@@ -69,7 +78,9 @@ class IdleState:
             for name, weight in self._body(now, state).items():
                 moves[name] = moves.get(name, 0.0) + share * weight
         rate *= 1 + 0.5 * arousal
-        return IdlePose(moves, Gaze(x, y), self._blinks.closure(now, rate, shutting=shutting))
+        tired = min(max(min(arousal, shown) / TIRED, 0.0), 1.0)
+        blink = self._blinks.closure(now, rate, shutting=shutting, tired=tired)
+        return IdlePose(moves, Gaze(x, y), blink)
 
     def _body(self, now: float, state: str) -> dict[str, float]:
         moves = idle.sway(self._settings.idle, self._seed, now, state)

@@ -25,6 +25,9 @@ WAY = 4.0
 
 Weights = NDArray[np.float64]
 """One number for each channel."""
+Closures = tuple[float, float]
+"""How far the left and the right eye are shut, 0 to 1; sides are those of the face."""
+OPEN: Closures = (0.0, 0.0)
 
 
 class Lids:
@@ -36,6 +39,7 @@ class Lids:
         drawn = {name for pair in pairs if not set(shut).isdisjoint(pair) for name in pair}
         self._shut = np.flatnonzero([name in shut for name in channels])
         self._eye_of = np.array([_eye_of(name, shut) for name in channels])
+        self._sides = np.array([_sides_of(name) for name in channels])
         self._bent = np.array([name.startswith(BENT) for name in channels], float)
         self._drawn = np.array([name in drawn for name in channels], float)
         self._rivals = np.zeros((len(channels), len(channels)))
@@ -54,9 +58,14 @@ class Lids:
         """Lid ownership implied by per-channel ownership."""
         return float(owned[self._shut].max(initial=0.0))
 
-    def blinking(self, weights: Weights, blink: float) -> Weights:
-        """The weights with a share of a blink, 0 to 1."""
-        share = blink * np.maximum(1 - self._eye_of @ weights[self._shut], 0.0)
+    def blinking(self, weights: Weights, blink: Closures) -> Weights:
+        """The weights with as much of a blink at each eye.
+
+        What is on neither side takes the mean of both.
+        """
+        if blink == OPEN:
+            return weights
+        share = self._sides @ blink * np.maximum(1 - self._eye_of @ weights[self._shut], 0.0)
         whole = np.minimum(share, 1.0) * self._bent
         as_drawn = np.clip(weights, 0.0, 1.0)
         kept = as_drawn * self._drawn * (1 - np.minimum(self._rivals @ as_drawn, 1.0))
@@ -67,6 +76,12 @@ class Lids:
 def _order(channel: str) -> int:
     """The place of a channel in `BENT`."""
     return next(n for n, beginning in enumerate(BENT) if channel.startswith(beginning))
+
+
+def _sides_of(channel: str) -> Closures:
+    """How much the left and the right eye count for a channel."""
+    left, right = (float(channel.endswith(side)) for side in SIDES)
+    return (left, right) if left or right else (0.5, 0.5)
 
 
 def _eye_of(channel: str, shut: Sequence[str]) -> list[float]:

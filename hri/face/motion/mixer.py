@@ -2,9 +2,9 @@
 
 From the bottom: mood, expression, gesture, speech, idle motion and gaze, blink, override. A gesture
 replaces the expression in the regions it owns. Speech owns the mouth; of expression and gesture the
-brows, eyes and cheeks stay, and about half of the corners. A blink shuts the lids from wherever
-they are, and changes nothing of eyes that are shut. Shut eyes do not follow the gaze. An override
-wins everywhere it names.
+brows, eyes and cheeks stay, and about half of the corners, less where lips are round. A blink shuts
+the lids from wherever they are, and changes nothing of eyes that are shut. Shut eyes do not follow
+the gaze. An override wins everywhere it names.
 """
 
 from __future__ import annotations
@@ -18,11 +18,14 @@ from numpy.typing import NDArray
 from hri.core.signals import Gaze
 from hri.face.drawing.baking import Vector
 from hri.face.model import FaceModel
-from hri.face.motion.lids import Lids
+from hri.face.motion.lids import OPEN, Closures, Lids
 from hri.face.regions import NAMES, by_region
 
 CORNER_SHARE = 0.5
 """What expression and gesture keep of the corners of a talking mouth."""
+ROUND_SHARE = 0.15
+"""What they keep of that while lips are fully round: a small mouth has no room for corners."""
+ROUND = ("mouthFunnel", "mouthPucker")
 KEPT = {**dict.fromkeys(NAMES, 1.0), "mouth": 0.0, "corners": CORNER_SHARE}
 """What they keep of each region while the face talks."""
 INWARD = ("eyeLookInLeft", "eyeLookInRight")
@@ -40,8 +43,8 @@ class Layers:
     viseme: Weighted
     talking: float = 0.0
     """How much speech owns the mouth, 0 to 1."""
-    blink: float = 0.0
-    """How far the lids are shut, 0 to 1."""
+    blink: Closures = OPEN
+    """How far a blink shuts the eyes."""
     gaze: Gaze = field(default_factory=Gaze)
     """Of the eyes."""
     inward: float = 0.0
@@ -64,6 +67,8 @@ class Mixer:
         self.model = model
         channels = model.channels
         self._lost = 1 - by_region(channels, KEPT)
+        self._corners = CORNER_SHARE * (1 - ROUND_SHARE) * by_region(channels, {"corners": 1.0})
+        self._round = np.flatnonzero([channel in ROUND for channel in channels])
         self._lids = Lids(model)
         gaze = model.settings.gaze
         self._gaze = np.array(
@@ -78,8 +83,9 @@ class Mixer:
         blink, owned = layers.blink, layers.owned
         if layers.gesture is not None and owned is not None:
             mixed = _together(mixed * (1 - owned), layers.gesture)
-            blink *= 1 - self._lids.owned(owned)
-        mixed = mixed * (1 - layers.talking * self._lost) + layers.viseme
+            left = 1 - self._lids.owned(owned)
+            blink = (left * blink[0], left * blink[1])
+        mixed = mixed * (1 - layers.talking * self._lost_of(layers.viseme)) + layers.viseme
         for name, weight in layers.idle.items():
             number = self.model.index[name]
             mixed[number] += weight if owned is None else weight * (1 - owned[number])
@@ -88,6 +94,11 @@ class Mixer:
         if layers.override is not None and layers.overridden is not None:
             mixed = mixed * (1 - layers.overridden) + layers.override
         return mixed.astype(np.float32)
+
+    def _lost_of(self, viseme: Weighted) -> Weighted:
+        """What expression and gesture lose of each channel to a talking mouth."""
+        lost: Weighted = self._lost + np.clip(viseme[self._round].sum(), 0, 1) * self._corners
+        return lost
 
     def gaze_left(self, owned: Weighted) -> float:
         """What a gesture leaves of the gaze: nothing when it owns the eyes."""

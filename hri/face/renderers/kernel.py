@@ -2,31 +2,42 @@
 
 Coverage is exact: each edge is cut at the lines between pixels, and adds to its pixel the area on
 its right side, to the next one the rest; a sum along the row gives what is covered (Levien's
-font-rs and FreeType's smooth rasterizer do the same). Vertices are whole numbers of 1/256 pixels
-and all sums are whole numbers, so they are exact, and the same whatever else is drawn. Where an
-outline overlaps itself, it is covered once. A picture is one row after the other of 0xAABBGGRR.
+font-rs and FreeType's smooth rasterizer do the same). Where an outline overlaps itself, it is
+covered once.
 
 All that is compiled stands in this file: numba looks at no other to tell whether what it kept is
-out of date.
+out of date. So whoever changes a number of `instructions` touches this file too.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.face.renderers.compiling import compiled, inlined
-
-Picture = NDArray[np.uint32]
-"""Shape [height, width]."""
-Floats = NDArray[np.float32]
-Whole = NDArray[np.int32]
-Contours = NDArray[np.int64]
-"""Shape [n, 2]: first vertex, the one after the last."""
-Box = tuple[int, int, int, int]
-"""Left, top, right, bottom in pixels; right and bottom lie outside."""
+from hri.face.renderers.instructions import (
+    BITS,
+    BLOCK,
+    CLOSING,
+    FAINT,
+    FULL,
+    HALF,
+    OPENING,
+    RADIAL,
+    SHADES,
+    SHIFT,
+    SOLID,
+    STEPS,
+    Box,
+    Contours,
+    Floats,
+    Picture,
+    Program,
+    Scratch,
+    Whole,
+)
 
 # Numbers of machine code; what they are to Python does not matter.
 int32: Any = np.int32
@@ -36,57 +47,11 @@ uint64: Any = np.uint64
 float32: Any = np.float32
 float64: Any = np.float64
 
-SOLID, LINEAR, RADIAL, OPENING, CLOSING = range(5)
-"""Kinds of steps."""
-SHADES = 1024
-"""Colors along a gradient."""
-BLOCK = 16
-"""Pixels of a row that are looked at together: does an edge touch one of them?"""
-
-_BITS = 8
-STEPS = 1 << _BITS
-"""In a pixel."""
-_FULL = 2 * STEPS * STEPS
-"""The sum in a pixel that is covered once."""
-_FAINT = 1 / 255
-"""Less opacity than this shows nothing."""
 _VARIED = -1
 """Coverage that is not the same all over a span."""
-_SHIFT = 4 * _BITS + 2
-_HALF = 1 << (_SHIFT - 1)
-_LOW, _GREEN = uint32(0xFF), uint32(0xFF00)
-_RED_BLUE, _HALVES = uint32(0x00FF00FF), uint32(0x00800080)
+_RED_BLUE, _ALPHA_GREEN = uint32(0x00FF00FF), uint32(0xFF00FF00)
+_HALVES, _SOLID = uint32(0x00800080), uint32(0xFF000000)
 _BYTE, _HALF_BYTE = uint32(8), uint32(0x80)
-
-
-class Program(NamedTuple):
-    """What is painted, step by step."""
-
-    steps: NDArray[np.void]
-    """A record for each shape, and one where what is seen through an opening ends."""
-    contours: Contours
-    """Of all shapes, those of each behind each other."""
-    ramps: NDArray[np.uint32]
-    """Shape [n, SHADES]: colors from the start of a gradient to its end, 0xAABBGGRR."""
-
-
-class Scratch(NamedTuple):
-    """Room to paint in."""
-
-    sums: Whole
-    """Shape [height, width + 1]: changes of coverage along a row."""
-    touched: NDArray[np.bool_]
-    """Whether there are any in a block of a row."""
-    alphas: NDArray[np.uint8]
-    """Coverage times opacity, [height, width]."""
-    spans: Whole
-    """Of a shape, [n, 4]: row, begin, end, and alpha, or -1 when it varies."""
-    shades: NDArray[np.uint32]
-    """Colors of a row."""
-    masks: NDArray[np.uint8]
-    """Shape [openings in each other, height, width]."""
-    below: NDArray[np.uint32]
-    """The same."""
 
 
 @compiled
@@ -113,7 +78,7 @@ def paint(
             continue
         box = _box(vertices, contours, step.first, step.last, limits)
         opacity = scalars[step.scalar]
-        if not opacity >= _FAINT or box[0] >= box[2] or box[1] >= box[3]:
+        if not opacity >= FAINT or box[0] >= box[2] or box[1] >= box[3]:
             number = max(number, step.closing + 1)
             continue
         _add(sums, touched, vertices, contours, step.first, step.last, box)
@@ -143,8 +108,8 @@ def _box(vertices: Whole, contours: Contours, first: int, last: int, limits: Box
         low_x, high_x = x if x < low_x else low_x, x if x > high_x else high_x
         low_y, high_y = y if y < low_y else low_y, y if y > high_y else high_y
     left, top, right, bottom = limits
-    low_x, high_x = low_x >> _BITS, (high_x + STEPS - 1) >> _BITS
-    low_y, high_y = low_y >> _BITS, (high_y + STEPS - 1) >> _BITS
+    low_x, high_x = low_x >> BITS, (high_x + STEPS - 1) >> BITS
+    low_y, high_y = low_y >> BITS, (high_y + STEPS - 1) >> BITS
     left, right = low_x if low_x > left else left, high_x if high_x < right else right
     top, bottom = low_y if low_y > top else top, high_y if high_y < bottom else bottom
     return left, top, right, bottom
@@ -172,17 +137,17 @@ def _add(
         for vertex in range(start, end):
             x0, y0 = x1, y1
             x1, y1 = int64(vertices[vertex, 0]), int64(vertices[vertex, 1])
-            if y0 == y1 or (x0 >> _BITS >= right and x1 >> _BITS >= right):
+            if y0 == y1 or (x0 >> BITS >= right and x1 >> BITS >= right):
                 continue
             way = 1 if y0 < y1 else -1
             upper_x, upper_y = (x0, y0) if y0 < y1 else (x1, y1)
             lower_x, lower_y = (x1, y1) if y0 < y1 else (x0, y0)
             slope = (x1 - x0) / (y1 - y0)
-            y, floor = max(upper_y, top << _BITS), min(lower_y, bottom << _BITS)
+            y, floor = max(upper_y, top << BITS), min(lower_y, bottom << BITS)
             x = upper_x + int64((y - upper_y) * slope + 0.5)
             while y < floor:
-                row = y >> _BITS
-                lower = min((row + 1) << _BITS, floor)
+                row = y >> BITS
+                lower = min((row + 1) << BITS, floor)
                 after = upper_x + int64((lower - upper_y) * slope + 0.5)
                 if lower == lower_y:
                     after = lower_x
@@ -190,20 +155,20 @@ def _add(
                 height, low, high = lower - y, min(x, after), max(x, after)
                 y, x = lower, after
                 at, done = low, 0
-                if low < left << _BITS:
-                    at = left << _BITS
+                if low < left << BITS:
+                    at = left << BITS
                     done = height
                     if high > at:
                         done = int64((at - low) * height / (high - low) + 0.5)
                     sums[row, left] += way * done * 2 * STEPS
                     touched[row, left // BLOCK] = True
-                column = at >> _BITS
+                column = at >> BITS
                 while done < height and column < right:
-                    stop = min((column + 1) << _BITS, high)
+                    stop = min((column + 1) << BITS, high)
                     covered = height
                     if stop < high:
                         covered = int64((stop - low) * height / (high - low) + 0.5)
-                    rest = way * (covered - done) * (at + stop - (column << (_BITS + 1)))
+                    rest = way * (covered - done) * (at + stop - (column << (BITS + 1)))
                     sums[row, column] += way * (covered - done) * 2 * STEPS - rest
                     touched[row, column // BLOCK] = True
                     at, done = stop, covered
@@ -226,7 +191,7 @@ def _cover(
     What is covered, times the opacity, 0 to 255, is written in the spans, or among the alphas
     where it varies. The sums are emptied.
     """
-    strength = int64(255 * opacity * _FULL + 0.5)
+    strength = int64(255 * opacity * FULL + 0.5)
     left, top, right, bottom = box
     count = int64(0)
     for row in range(top, bottom):
@@ -241,14 +206,14 @@ def _cover(
                 for place in range(x, stop):
                     total += sums[row, place]
                     sums[row, place] = 0
-                    covered = min(abs(total), _FULL)
-                    alphas[row, place] = (covered * strength + _HALF) >> _SHIFT
+                    covered = min(abs(total), FULL)
+                    alphas[row, place] = (covered * strength + HALF) >> SHIFT
                 alpha = _VARIED
             else:
                 while stop < right and not touched[row, stop // BLOCK]:
                     stop += BLOCK
                 stop = min(stop, right)
-                alpha = (min(abs(total), _FULL) * strength + _HALF) >> _SHIFT
+                alpha = (min(abs(total), FULL) * strength + HALF) >> SHIFT
             if alpha:
                 spans[count, 0], spans[count, 1], spans[count, 2] = row, x, stop
                 spans[count, 3] = alpha
@@ -308,7 +273,7 @@ def _lay(
         else:
             for x in range(begin, end):
                 share = _share(uint32(alphas[row, x]), shades[x] >> uint32(24))
-                canvas[row, x] = _mixed(canvas[row, x], shades[x], share)
+                canvas[row, x] = _mixed(canvas[row, x], shades[x] | _SOLID, share)
 
 
 @inlined
@@ -342,16 +307,17 @@ def _place(kind: int, vertices: Whole, anchor: int) -> tuple[Any, ...]:
 
 @inlined
 def _mixed(below: int, above: int, alpha: int) -> Any:
-    """A color over another one, rounded; the top byte is not kept."""
-    # Red and blue are far enough apart to be mixed at once.
+    """A color over another one, rounded, each byte for itself."""
+    # Red and blue are far enough apart to be mixed at once, and so are green and alpha.
     rest = uint32(uint32(255) - alpha)
     both = uint32((below & _RED_BLUE) * rest) + uint32((above & _RED_BLUE) * alpha)
     both = uint32(both + _HALVES)
     both = uint32(both + ((both >> _BYTE) & _RED_BLUE))
-    green = ((below >> _BYTE) & _LOW) * rest + ((above >> _BYTE) & _LOW) * alpha
-    green = uint32(green + _HALF_BYTE)
-    green = uint32(green + (green >> _BYTE))
-    return uint32(((both >> _BYTE) & _RED_BLUE) | (green & _GREEN))
+    others = uint32(((below >> _BYTE) & _RED_BLUE) * rest)
+    others = uint32(others + ((above >> _BYTE) & _RED_BLUE) * alpha)
+    others = uint32(others + _HALVES)
+    others = uint32(others + ((others >> _BYTE) & _RED_BLUE))
+    return uint32(((both >> _BYTE) & _RED_BLUE) | (others & _ALPHA_GREEN))
 
 
 @inlined

@@ -11,9 +11,10 @@ from PIL import Image as Picture
 
 from hri.core.errors import HriError
 from hri.core.native_path import native_path
-from hri.core.signals import Image
+from hri.core.signals import Image, Samples
 from hri.core.writing import replacing
 from hri.hal.drivers.mp4 import check_size, is_whole
+from hri.hal.drivers.mp4_sound import add_sound
 from hri.hal.drivers.scaling import by_area
 from hri.hal.picture import fitted
 
@@ -31,15 +32,23 @@ WEBP_QUALITY = 85
 """Of 100."""
 
 
+Sound = tuple[Samples, int]
+"""Samples of one channel, and how many there are in a second."""
+
+
 def write_movie(
-    path: Path, pictures: Iterable[Image], rate: float, mode: int | None = None
+    path: Path,
+    pictures: Iterable[Image],
+    rate: float,
+    mode: int | None = None,
+    sound: Sound | None = None,
 ) -> None:
     """Write pictures, `rate` a second, as the suffix says: .mp4, .webp or .gif.
 
     Pictures are taken one at a time, so they may be drawn on the way. The first one gives the size;
-    one of another size is fitted into it, with black bars. An MP4 (MPEG-4 part 2) has no sound, and
-    leaves out the last line of an odd side. WebP and GIF repeat for ever. `mode` sets the
-    permissions of the file, such as PRIVATE for a film of people.
+    one of another size is fitted into it, with black bars. An MP4 (MPEG-4 part 2) leaves out the
+    last line of an odd side, and holds the sound, if there is one; WebP and GIF are silent, and
+    repeat for ever. `mode` sets the permissions of the file, such as PRIVATE for a film of people.
 
     Raises HriError for another suffix, a rate out of range, no picture at all, too many, a size
     that an MP4 cannot have, or a file that cannot be written; one that was there before stays as it
@@ -49,6 +58,8 @@ def write_movie(
     suffix = path.suffix.lower()
     with replacing(path, mode, suffix) as new:
         WRITERS[suffix](new, _bounded(path, pictures), rate)
+        if sound is not None and suffix in WITH_SOUND:
+            add_sound(new, *sound)
 
 
 def check_movie(path: Path, rate: float) -> None:
@@ -136,3 +147,5 @@ def _milliseconds(rate: float, unit: int) -> list[int]:
 Writer = Callable[[Path, Iterator[Image], float], None]
 WRITERS: dict[str, Writer] = {".mp4": _write_mp4, ".webp": _write_webp, ".gif": _write_gif}
 """By suffix."""
+WITH_SOUND = (".mp4",)
+"""Those that can hold sound."""

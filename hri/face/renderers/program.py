@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from hri.core.errors import HriError
 from hri.face.drawing.baking import Item, Opening, Shape
 from hri.face.drawing.paint import Gradient, Paint, Stop
-from hri.face.renderers.kernel import (
+from hri.face.renderers.instructions import (
     BLOCK,
     CLOSING,
     LINEAR,

@@ -1,90 +1,94 @@
-"""Draws a face model: weights in, an RGB picture out."""
+"""Draws a face model: weights in, an RGB picture out, or RGBA without its background."""
 
 from __future__ import annotations
 
-import math
+from collections.abc import Collection
 
 import cv2
 import numpy as np
 
-from hri.core.errors import HriError
+from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Image
-from hri.face.drawing.baking import DisplayList, Vector
-from hri.face.drawing.outline import Matrix, apply, compose
+from hri.face.drawing.baking import Vector
+from hri.face.layers import LAYERS
 from hri.face.model import FaceModel
-from hri.face.renderers.kernel import STEPS, Picture, Whole, paint
-from hri.face.renderers.program import lines, packed, program_of, scratch_for
-from hri.face.renderers.strokes import Points, Strokes
-
-SMALLEST, LARGEST = 16, 4096
-"""Pixels along a side of a picture."""
-FARTHEST = 100_000
-"""Pixels."""
+from hri.face.renderers.instructions import Picture
+from hri.face.renderers.painter import Painter, of_layers
+from hri.face.renderers.program import packed
 
 
 class Renderer:
-    """Draws one face at one size, one picture at a time; the same weights give the same bytes.
+    """Draws one face at one size, one picture at a time; the same weights give the same bytes, on
+    another kind of processor up to one step of a few pixels (docs/testing.md).
 
-    The first picture of a new installation takes some seconds: the loops are compiled.
+    The first pictures of a process are drawn without compiled loops, a tenth of a second each; in a
+    new installation the ninth takes some seconds more, in which the loops are compiled.
     """
 
-    def __init__(self, model: FaceModel, size: tuple[int, int] = (640, 480)) -> None:
-        """`size` is width and height in pixels.
+    def __init__(
+        self,
+        model: FaceModel,
+        size: tuple[int, int] = (640, 480),
+        *,
+        transparent: bool = False,
+        layers: Collection[str] = (),
+    ) -> None:
+        """`size` is width and height in pixels. `transparent` leaves the background out; with
+        `layers` only the parts in these layers of its face.toml are drawn.
 
-        Raises HriError for one that is out of range, or a face with too deep clip paths.
+        Raises HriError for a size out of range, a layer that the face does not have, or a face
+        with too deep clip paths.
         """
-        width, height = size
-        if not (SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
-            raise HriError(
-                f"a picture of {width}x{height} - give sides from {SMALLEST} to {LARGEST} pixels"
-            )
+        items = model.display.items
+        if layers:
+            _check_layers(model, layers)
+            items = tuple(of_layers(items, model.settings.layers, layers))
+        self._painter = Painter(model, items, size)
         self.model = model
-        self.width, self.height = width, height
-        self._fit = fit(model.display, width, height)
-        self._strokes = Strokes(lines(model.display.items))
-        self._program = program_of(model.display.items, self._strokes)
-        self._scratch = scratch_for(self._program, width, height)
-        self._background = _background(model, width, height)
-        self._canvas = np.empty_like(self._background)
+        self.width, self.height = size
+        shape = (self.height, self.width)
+        self._channels = 4 if transparent else 3
+        self._conversion = cv2.COLOR_mRGBA2RGBA if transparent else cv2.COLOR_RGBA2RGB
+        self._ground = np.zeros(shape, np.uint32) if transparent else _background(model, *size)
+        self._canvas = np.empty(shape, np.uint32)
 
     @property
     def background(self) -> Image:
         """What is behind the drawing."""
-        return self._picture(self._background)
+        out = np.empty((self.height, self.width, self._channels), np.uint8)
+        return self._convert(self._ground, out)
 
-    def render(self, vector: Vector) -> Image:
+    def render(self, vector: Vector, out: Image | None = None) -> Image:
         """The picture, [height, width, 3] RGB, for weights of all channels of the model.
 
-        Raises HriError for weights that are not finite.
+        A transparent one is [height, width, 4]: RGB, not multiplied with the opacity, and that;
+        a pixel that is half covered is half opaque. It is written into `out`, an array of this
+        shape and uint8 without gaps, or into a new one. Raises HriError for weights that are not
+        finite, ValueError for an `out` that does not fit.
         """
-        if not np.isfinite(vector).all():
-            raise HriError(f"weights of {self.model.name} are not numbers - give finite ones")
-        points, scalars = self.model.placed(vector)
-        linear = compose(self._fit, self.model.motion(vector))[:, :2]
-        scale = math.sqrt(abs(np.linalg.det(linear)))
-        points = apply(self._fit, points.astype(np.float64)).astype(np.float32)
-        points = np.concatenate([self._strokes.outline(points, scalars, scale), points])
-        np.copyto(self._canvas, self._background)
-        paint(self._program, _whole(points), scalars, self._scratch, self._canvas)
-        return self._picture(self._canvas)
+        shape = (self.height, self.width, self._channels)
+        if out is None:
+            out = np.empty(shape, np.uint8)
+        elif out.shape != shape or out.dtype != np.uint8 or not out.flags.c_contiguous:
+            raise ValueError(f"out is {out.dtype}, {out.shape} - give uint8, {shape}, contiguous")
+        np.copyto(self._canvas, self._ground)
+        self._painter.paint(vector, self._canvas)
+        return self._convert(self._canvas, out)
 
-    def _picture(self, canvas: Picture) -> Image:
+    def _convert(self, canvas: Picture, out: Image) -> Image:
         channels = canvas.view(np.uint8).reshape(self.height, self.width, 4)
-        return np.asarray(cv2.cvtColor(channels, cv2.COLOR_RGBA2RGB), np.uint8)
+        cv2.cvtColor(channels, self._conversion, dst=out)
+        return out
 
 
-def _whole(points: Points) -> Whole:
-    """Pixels in steps; what is farther away than any picture is large is moved there."""
-    near = np.clip(points, -FARTHEST, FARTHEST)
-    return np.rint(near * STEPS).astype(np.int32)
-
-
-def fit(display: DisplayList, width: int, height: int) -> Matrix:
-    """The whole drawing as large as the picture allows, in the middle."""
-    scale = min(width / display.width, height / display.height)
-    x = (width - scale * display.width) / 2
-    y = (height - scale * display.height) / 2
-    return np.array([[scale, 0, x], [0, scale, y]])
+def _check_layers(model: FaceModel, layers: Collection[str]) -> None:
+    """Raises HriError for one that there is not, or that the face has no parts in."""
+    for layer in layers:
+        if layer not in LAYERS:
+            raise HriError(f'no layer "{layer}" - {did_you_mean(layer, LAYERS)}')
+        if layer not in model.settings.layers.patterns.values():
+            what = f'the face {model.name} has no layer "{layer}"'
+            raise HriError(f'{what} - add {layer} = ["eye*"] or the like to [layers], face.toml')
 
 
 def _background(model: FaceModel, width: int, height: int) -> Picture:

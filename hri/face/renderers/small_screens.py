@@ -47,6 +47,11 @@ def one_bit(image: Image, size: tuple[int, int] | None = None, *, dither: bool =
     return np.asarray(gray > np.tile(_THRESHOLDS, tiles)[:height, :width])
 
 
+def black_and_white(bits: Bits) -> Image:
+    """Bits as a picture, [height, width, 3]."""
+    return np.repeat(np.where(bits, np.uint8(255), np.uint8(0))[..., None], 3, axis=2)
+
+
 def rows(bits: Bits) -> bytes:
     """Row by row, eight pixels a byte, the leftmost in the highest bit (as in PBM files).
 
@@ -106,6 +111,8 @@ PIXELS: dict[str, Callable[[Image], bytes]] = {
     "pages-dithered": lambda image: pages(one_bit(image, dither=True)),
 }
 """How a display wants its bytes, by name."""
+ONE_BIT = ("rows", "pages")
+"""Those of which a pixel is lit when it is lighter than half."""
 
 
 class SmallScreen(Screen):
@@ -128,6 +135,7 @@ class SmallScreen(Screen):
             what = f"{self.height} rows make no whole pages"
             raise self.description.error("height", what, f"use a multiple of {PAGE}")
         self._bytes = PIXELS[name]
+        self.is_one_bit = name in ONE_BIT
         path = Path(self.description.text("file"))
         try:
             self._file = path.open("wb", buffering=0)

@@ -23,7 +23,7 @@ def judge() -> face_judge.Judge:
     return face_judge.Judge(network)
 
 
-@pytest.mark.parametrize("name", ["robot", "person"])
+@pytest.mark.parametrize("name", face_judge.HUMAN)
 def test_the_network_names_the_basic_expressions(name: str) -> None:
     called = face_judge.verdict(judge(), load_face(name))
     assert called == {label: label for label in called}

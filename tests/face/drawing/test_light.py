@@ -74,7 +74,7 @@ def lights(face: FaceModel, shape: Shape, **turns: float) -> NDArray[np.float64]
     return light(points[first:last], points[last:end])
 
 
-@pytest.mark.parametrize("name", ["robot", "person", "eyes"])
+@pytest.mark.parametrize("name", ["robot", "astronaut", "person", "eyes"])
 def test_no_soft_shape_gets_a_rim_when_the_head_turns(name: str) -> None:
     face = load_face(name)
     soft = [

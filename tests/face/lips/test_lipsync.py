@@ -1,5 +1,6 @@
 """The mouth follows the voice: from phonemes, or from the sound alone."""
 
+import re
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -8,19 +9,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Phoneme, Speech
+from hri.face.lips.accents import FULL
 from hri.face.lips.lip_player import LipPlayer, lip_track
-from hri.face.lips.lipsync import (
-    ARTICULATORS,
-    CLOSED,
-    FASTEST,
-    PRESSED,
-    PULL,
-    SHORTEST,
-    STEP,
-    LipTrack,
-    PhonemeTrack,
-    spoken,
-)
+from hri.face.lips.lipsync import FASTEST, ROUND_LEAD, STEP, LipTrack, PhonemeTrack
 from hri.face.lips.phonemes import (
     ARPABET,
     BREATH,
@@ -30,6 +21,18 @@ from hri.face.lips.phonemes import (
     Alphabet,
     mnemonics,
     sound_of,
+)
+from hri.face.lips.spans import (
+    ARTICULATORS,
+    CLOSED,
+    HASTY,
+    PRESSED,
+    PULL,
+    ROUNDED,
+    SHORTEST,
+    SHORTEST_ROUNDING,
+    UNSTRESSED,
+    spoken,
 )
 from hri.face.vocabulary import VISEMES
 from tests.face.pixels import MODEL
@@ -187,7 +190,32 @@ def test_shapes_come_in_order_and_only_closures_may_be_short(
         assert one.start <= one.end <= other.start + 1e-9
     for before, segment, after in zip(segments, segments[1:], segments[2:], strict=False):
         alone = {before.viseme, after.viseme} <= {*CLOSED, "sil"}
-        assert segment.duration >= SHORTEST - 1e-9 or segment.viseme in CLOSED or alone
+        least = SHORTEST_ROUNDING if segment.viseme in ROUNDED else SHORTEST[0]
+        assert segment.duration >= least - 1e-9 or segment.viseme in CLOSED or alone
+
+
+@pytest.mark.parametrize(("each", "is_shown"), [(0.05, True), (0.1, False)])
+def test_a_short_shape_is_shown_at_the_pace_of_quick_talk(each: float, is_shown: bool) -> None:
+    """A t of 45 ms is as long as its neighbors in quick talk, and nothing in slow talk."""
+    names = "akasakatakasaka"
+    ends = np.cumsum([0.045 if name == "t" else each for name in names]).tolist()
+    starts = [0.0, *ends]
+    sounds = [
+        Phoneme(name, start, end - start)
+        for name, start, end in zip(names, starts, ends, strict=False)
+    ]
+    assert ("DD" in [segment.viseme for segment in PhonemeTrack(sounds).segments]) == is_shown
+
+
+@pytest.mark.parametrize("names", ["asaSasa", "istStsa", "sawasas", "kadZZtk"])
+@pytest.mark.parametrize("each", [0.03, 0.05, 0.08])
+def test_lips_round_however_short_the_sound_is(names: str, each: float) -> None:
+    sounds = re.findall("dZ|tS|.", names)
+    track = lip_track(saying(*sounds, each=each))
+    number = next(n for n, name in enumerate(sounds) if sound_of(name).visemes[0] in ROUNDED)
+    around = np.arange(number * each - ROUND_LEAD, (number + 1) * each, 0.005)
+    rounded = [sum(track.weights(t).get(name, 0.0) for name in ROUNDED) for t in around]
+    assert max(rounded) >= 0.7
 
 
 def test_the_closure_is_over_when_the_vowel_sounds() -> None:
@@ -201,6 +229,23 @@ def test_an_h_has_the_shape_of_its_vowel() -> None:
     breath, vowel = spoken(saying("h", "u:").phonemes)
     assert breath.viseme == vowel.viseme == "ou"
     assert breath.strength < vowel.strength
+
+
+def test_vowels_of_one_kind_are_not_all_alike() -> None:
+    """Stressed and long ones are full: in "she sees three trees" the mouth is not frozen."""
+    sounds = (
+        Phoneme("i:", 0.0, 0.2, stressed=True),
+        Phoneme("s", 0.2, 0.1),
+        Phoneme("i:", 0.3, 0.2),
+        Phoneme("s", 0.5, 0.1),
+        Phoneme("I", 0.6, 0.05),
+    )
+    full, weaker, weakest = (s.strength for s in spoken(sounds) if s.viseme == "ih")
+    assert full == 1
+    assert weaker == pytest.approx(UNSTRESSED)
+    assert HASTY * UNSTRESSED < weakest < weaker
+    plain = [Phoneme(each.name, each.start, each.duration) for each in sounds]
+    assert next(spoken(plain)).strength == 1, "where the voice marks no stress"
 
 
 def test_a_glide_spends_more_time_at_its_begin() -> None:
@@ -284,3 +329,42 @@ def test_a_closed_mouth_is_closed_on_the_face() -> None:
 def test_a_sound_has_its_shape_in_both_alphabets(espeak, arpabet, visemes):
     assert sound_of(espeak).visemes == visemes
     assert mnemonics([arpabet], Alphabet.ARPABET) == [espeak]
+
+
+def test_one_word_of_a_phrase_is_accented_not_each() -> None:
+    """The longest; a second phrase has its own."""
+    lengths = (0.1, 0.14, 0.1, 0.2, 0.3, 0.12)
+    names = ("a", "E", "a", "O:", "_:", "a")
+    ends = np.cumsum(lengths).tolist()
+    sounds = [
+        Phoneme(name, end - length, length, name != "_:")
+        for name, length, end in zip(names, lengths, ends, strict=True)
+    ]
+    track = PhonemeTrack(sounds)
+    at = [track.emphasis(end - length / 2) for length, end in zip(lengths, ends, strict=True)]
+    assert at[3] == pytest.approx(1)
+    assert at[5] == pytest.approx(0.12 / FULL)
+    assert max(at[:2]) == 0
+
+
+def test_of_two_words_the_louder_is_accented() -> None:
+    sounds = tuple(Phoneme("a", 0.2 * n, 0.2, stressed=n in (1, 3)) for n in range(5))
+    samples = np.full(RATE, 300, np.int16)
+    samples[round(0.2 * RATE) : round(0.4 * RATE)] = 6000
+    track = lip_track(Speech("", samples, RATE, tuple(_apart(sounds))))
+    assert track.emphasis(0.3) > 0.9
+    assert track.emphasis(0.7) < 0.1
+
+
+def _apart(sounds: tuple[Phoneme, ...]) -> Iterator[Phoneme]:
+    """Each other sound another one: equal neighbors are one shape."""
+    for number, sound in enumerate(sounds):
+        yield sound if number % 2 else Phoneme("k", sound.start, sound.duration)
+
+
+def test_a_long_phrase_has_more_accents_than_one() -> None:
+    sounds = [Phoneme("aE"[n % 2], 0.2 * n, 0.2, stressed=True) for n in range(20)]
+    track = PhonemeTrack(sounds)
+    times = np.arange(0, 4, 0.02)
+    accented = np.array([track.emphasis(t) > 0.5 for t in times])
+    assert 2 <= np.sum(np.diff(accented.astype(int)) == 1) <= 4

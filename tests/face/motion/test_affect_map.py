@@ -25,7 +25,7 @@ def test_at_its_own_point_an_expression_is_all_that_shows(label: str) -> None:
     assert shown == pytest.approx(MODEL.vector(MODEL.expression(label)) * ~marks, abs=1e-6)
 
 
-@pytest.mark.parametrize("name", ["robot", "person", "eyes"])
+@pytest.mark.parametrize("name", ["robot", "astronaut", "person", "eyes"])
 def test_no_mood_shows_marks_such_as_tears(name: str) -> None:
     model = load_face(name)
     affect = AffectMap(model)
@@ -37,7 +37,7 @@ def test_no_mood_shows_marks_such_as_tears(name: str) -> None:
     assert any(model.vector(weights)[marks].any() for weights in model.expressions.values())
 
 
-@pytest.mark.parametrize("name", ["robot", "person", "eyes"])
+@pytest.mark.parametrize("name", ["robot", "astronaut", "person", "eyes"])
 def test_calm_and_pleasure_look_content_and_awake(name: str) -> None:
     model = load_face(name)
     lids = Lids(model)

@@ -1,5 +1,7 @@
 """A blink shuts what is open, and is not seen on eyes that are shut."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
@@ -15,7 +17,7 @@ from hri.face.motion.mixer import Layers, Mixer
 from tests.face.pixels import MODEL
 from tests.face.small_face import write_face
 
-NAMES = ("robot", "person", "eyes")
+NAMES = ("robot", "astronaut", "person", "eyes")
 WEIGHTS = st.floats(0, 1)
 LIDS = st.fixed_dictionaries(
     dict.fromkeys(("eyeBlinkLeft", "eyeBlinkRight", "cheekSquint", "eyeWide", "eyeDroop"), WEIGHTS)
@@ -24,7 +26,9 @@ LIDS = st.fixed_dictionaries(
 
 def blinked(face: FaceModel, weights: dict[str, float], blink: float) -> NDArray[np.float32]:
     shown = face.vector(weights)
-    return Mixer(face).mix(Layers(expression=shown, viseme=np.zeros(len(shown)), blink=blink))
+    return Mixer(face).mix(
+        Layers(expression=shown, viseme=np.zeros(len(shown)), blink=(blink, blink))
+    )
 
 
 @given(LIDS, WEIGHTS)
@@ -46,6 +50,13 @@ def test_a_blink_of_shut_eyes_changes_nothing(name: str, data: st.DataObject) ->
     bent = [channel for channel in face.channels if channel.startswith(BENT)]
     weights = data.draw(st.dictionaries(st.sampled_from(bent), WEIGHTS)) | {"eyeBlink": 1.0}
     assert np.array_equal(blinked(face, weights, 1.0), blinked(face, weights, 0.0))
+
+
+def test_each_eye_shuts_as_far_as_its_blink() -> None:
+    weights = np.zeros(len(MODEL.channels))
+    shown = MODEL.weights(Mixer(MODEL).mix(Layers(weights, weights, blink=(0.9, 0.4))))
+    assert shown["eyeBlinkLeft"] == pytest.approx(0.9)
+    assert shown["eyeBlinkRight"] == pytest.approx(0.4)
 
 
 @given(LIDS, WEIGHTS)
@@ -106,17 +117,19 @@ def test_who_falls_asleep_shuts_the_eyes_once(name: str, by_state: bool) -> None
 
 
 def test_a_blink_that_was_shut_when_eyes_began_to_shut_stays_shut() -> None:
-    blinks = Blinks(MODEL.settings.blink, seed=0)
-    blink = MODEL.settings.blink
+    blink = replace(MODEL.settings.blink, half=0.0, uneven=0.0)
+    blinks = Blinks(blink, seed=0)
     times = np.arange(0, 60, 0.01)
-    begun = next(t for t in times if blinks.closure(t, 40.0) > 0.5)
+    begun = next(t for t in times if min(blinks.closure(t, 40.0)) > 0.5)
     held = [blinks.closure(begun + n * 0.01, 40.0, shutting=True) for n in range(100)]
-    assert (np.diff(held) >= 0).all()
-    assert held[-1] == 1.0
+    assert (np.diff(held, axis=0) >= 0).all()
+    assert max(held[-1]) == 1.0
+    assert min(held[-1]) > 0.95
+    assert held[-1] == held[20]
     after = begun + 1.0
-    opened = [blinks.closure(after + n * 0.01, 0.0) for n in range(40)]
-    assert np.abs(np.diff(opened)).max() < 0.02 / blink.open_s
-    assert opened[-1] == 0.0
+    opened = [blinks.closure(after + n * 0.01, 0.0) for n in range(60)]
+    assert np.abs(np.diff(opened, axis=0)).max() < 0.02 / blink.open_s
+    assert opened[-1] == (0.0, 0.0)
 
 
 def test_events_bring_no_blink_to_eyes_that_are_shut_or_shut_now() -> None:
@@ -129,7 +142,7 @@ def test_events_bring_no_blink_to_eyes_that_are_shut_or_shut_now() -> None:
         assert number < 90 or lids.shut(weights.astype(float)) > 0.95
 
 
-@pytest.mark.parametrize("face", ["robot", "person", "eyes"])
+@pytest.mark.parametrize("face", ["robot", "astronaut", "person", "eyes"])
 def test_a_gesture_adds_no_more_than_all_there_is(face: str) -> None:
     model = load_face(face)
     glad, laughing = (

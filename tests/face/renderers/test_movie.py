@@ -55,6 +55,14 @@ def test_a_video_has_all_frames_in_their_colors_and_time(tmp_path: Path) -> None
     capture.release()
 
 
+def test_an_mp4_holds_its_sound(tmp_path: Path) -> None:
+    sound = np.arange(-4000, 4000, dtype=np.int16), 8000
+    write_movie(tmp_path / "clip.mp4", pictures(), RATE, sound=sound)
+    assert len(frames_of(tmp_path / "clip.mp4")) == COUNT
+    assert sound[0].astype("<i2").tobytes() in (tmp_path / "clip.mp4").read_bytes()
+    write_movie(tmp_path / "clip.webp", pictures(), RATE, sound=sound)
+
+
 @pytest.mark.parametrize(
     ("name", "rate", "what"),
     [

@@ -14,7 +14,8 @@ from hri.face.drawing.baking import Item, Opening, Shape
 from hri.face.drawing.paint import Gradient, Paint, Solid, Stop
 from hri.face.renderers.captions import add_caption
 from hri.face.renderers.compiling import compiled
-from hri.face.renderers.kernel import STEPS, paint
+from hri.face.renderers.instructions import STEPS
+from hri.face.renderers.kernel import paint
 from hri.face.renderers.program import DEEPEST, lines, program_of, scratch_for
 from hri.face.renderers.renderer import Renderer
 from hri.face.renderers.strokes import Strokes
@@ -71,6 +72,27 @@ def test_the_picture_that_was_given_out_may_be_drawn_on() -> None:
     assert np.array_equal(OLD.render(vector), kept)
 
 
+def test_a_picture_is_drawn_into_the_array_that_is_given() -> None:
+    batch = np.zeros((3, 120, 160, 3), np.uint8)
+    vectors = [still_vector(MODEL, label) for label in ("happy", "sad", "angry")]
+    for vector, out in zip(vectors, batch, strict=True):
+        assert OLD.render(vector, out) is out
+        assert np.array_equal(out, OLD.render(vector))
+
+
+@pytest.mark.parametrize(
+    "out",
+    [
+        np.zeros((120, 160, 4), np.uint8),
+        np.zeros((120, 160, 3), np.float32),
+        np.zeros((120, 320, 3), np.uint8)[:, ::2],
+    ],
+)
+def test_an_array_that_does_not_fit_is_refused(out: np.ndarray) -> None:
+    with pytest.raises(ValueError, match=r"give uint8, \(120, 160, 3\), contiguous"):
+        OLD.render(HAPPY, out)
+
+
 def test_the_head_moves_before_its_background() -> None:
     renderer = Renderer(MODEL, (480, 480))
     still = renderer.render(MODEL.vector({})).astype(int)
@@ -116,6 +138,12 @@ def test_weights_that_are_no_numbers_are_refused() -> None:
 
 def test_faces_are_loaded_and_checked_without_the_compiler() -> None:
     program = "import hri.cli.face, hri.face, sys; print('numba' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert run.stdout == "False\n"
+
+
+def test_the_first_picture_needs_no_compiler() -> None:
+    program = "import hri.face, sys; hri.face.render_face(); print('numba' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert run.stdout == "False\n"
 

@@ -85,6 +85,7 @@ def opened(**parameters: str) -> SmallScreen:
 def test_a_small_screen_holds_the_last_picture(tmp_path: Path, pixels: str) -> None:
     file, length = tmp_path / "display", 32 * 16 * (2 if "rgb" in pixels else 1 / 8)
     screen = opened(file=str(file), width="32", height="16", pixels=pixels)
+    assert screen.is_one_bit == (pixels in ("rows", "pages"))
     screen.show(plain(0), 0.0)
     screen.show(plain(255), 0.1)
     assert file.read_bytes() == b"\xff" * round(length)
