@@ -9,12 +9,16 @@ from __future__ import annotations
 import os
 import zipfile
 from collections.abc import Callable, Mapping
+from datetime import datetime
 from pathlib import Path
 
 import numpy as np
 
 from hri.behavior.network_file import load_network
 from hri.behavior.network_writer import save_network
+from hri.conversation.memory import Memory as People
+from hri.conversation.memory_file import Contents, change
+from hri.conversation.relations import Relation
 from hri.core.fetch.archive import unpack
 from hri.core.signals import EmotionState, Image
 from hri.emotion.model_spec import load_emotions
@@ -32,6 +36,7 @@ Writer = Callable[[Path, int], object]
 """Writes an edition, 0 or 1, to a place."""
 NETWORK = '<BehaviorNetwork name="net"><Behavior id="a" type="Hri.Constant"/></BehaviorNetwork>'
 RATE = 16000
+MORNING = datetime(2026, 5, 4, 9, 30)
 
 
 def content(path: Path) -> dict[str, bytes]:
@@ -64,6 +69,15 @@ def _faces(path: Path, edition: int) -> None:
 def _feelings(path: Path, edition: int) -> None:
     imprint = load_emotions("neutral").dynamics().rest(0.0).imprint
     keep(path, Memory(imprint, 1.0, 1e9 + edition))
+
+
+def _people(path: Path, edition: int) -> None:
+    memory = People({"likes": Relation("likes", "You like {value}.", several=True)})
+    id = memory.introduce("Ann", MORNING).id
+    memory.allow(id, MORNING, "word")
+    for value in ("jazz", "tea")[: edition + 1]:
+        memory.learn(id, "likes", value, MORNING)
+    change(path, lambda _: Contents(memory.remembered, memory.last_id))
 
 
 def _picture(edition: int) -> Image:
@@ -100,6 +114,7 @@ WRITERS: Mapping[str, Writer] = {
     "lexicon.txt": lambda path, edition: add_to_lexicon(path, "hri", ("EY", "CH")[: edition + 1]),
     "hri/devices.toml": _choices,
     "feelings.json": _feelings,
+    "people.db": _people,
     "faces.json": _faces,
     "picture.png": lambda path, edition: write_picture(path, _picture(edition)),
     "picture.jpg": lambda path, edition: write_picture(path, _picture(edition)),

@@ -82,6 +82,30 @@ def quiet(context: TaskContext) -> None:
 
 
 @immediate
+def no_sounds(context: TaskContext) -> None:
+    """Say only words: no giggles, sighs and the like."""
+    Companion.of(context).voice.makes_sounds = False
+
+
+@immediate
+def sounds_again(context: TaskContext) -> None:
+    """Make sounds that are not words, as before."""
+    Companion.of(context).voice.makes_sounds = True
+
+
+@immediate
+def no_fidgeting(context: TaskContext) -> None:
+    """Keep the base still while nothing happens."""
+    Companion.of(context).fidgets = False
+
+
+@immediate
+def fidget_again(context: TaskContext) -> None:
+    """Move the base a little while nothing happens, as before."""
+    Companion.of(context).fidgets = True
+
+
+@immediate
 def sleep(context: TaskContext) -> None:
     """Fall asleep: it hears "wake up" and little else."""
     Companion.of(context).fall_asleep()

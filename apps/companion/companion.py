@@ -16,11 +16,14 @@ from hri.conversation import (
     Spoken,
     Texts,
     clock_words,
+    face_for,
+    fields_of,
     part_of_day,
     pools,
     sayings,
+    suits,
 )
-from hri.core import Event, Latest, NotAvailable, Person
+from hri.core import Event, Expression, Latest, NotAvailable, Person
 from hri.drive import CommandGate, SupervisorRelay
 from hri.emotion import EmotionModel, load_stimuli, personality_names, personality_path
 from hri.face import FaceRenderer, load_face, load_gestures
@@ -32,7 +35,6 @@ from hri.vision import people_of
 
 from .facts import Commands, aloud, direction_words
 from .replies import FILE, Replies, Reply, Vocabulary, load_replies
-from .reply_texts import fields_of
 
 DANGER = ("in_danger", "being_hurt", "emergency")
 """Rules of people in danger: they wake it, and it speaks even if it was asked to be quiet."""
@@ -41,6 +43,10 @@ ALWAYS = ("stop", "wake", *DANGER)
 FLOOR_SECONDS = 0.4
 """How long it waits with words for someone who may go on speaking; it acts at once."""
 SHOW_SECONDS = 4.0
+FELT_SECONDS = 0.07
+"""Until the face knows what has just been felt."""
+SEEN = 0.3
+"""Intensity of an expression that others see."""
 FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
 TOPIC_SECONDS = 60.0
@@ -49,6 +55,8 @@ WORN = 0.8
 """Share of a stimulus that is lost by habit, from which on it is answered as what is overdone."""
 ABOUT_THE_LAST = ("why_that", "say_again")
 """Rules that speak of the reply before them."""
+GREETING = "greet"
+"""The rule that is answered by the name of who talks, where that is known."""
 GOES_ON = ("corrected",)
 """Rules that are answered by what the talk is about, if [[then]] has something for that."""
 SPEAK_UP = ("greet", "wake", *DANGER)
@@ -95,9 +103,12 @@ class Companion:
         self.motion = Lane(context)
         self.face = Lane(context)
         self.gestures = Lane(context)
+        self.agreeing = Lane(context)
         self.lessons = Lane(context)
         self.floor = Lane(context)
         self.is_asleep = False
+        self.fidgets = True
+        """Whether the base may move a little while nothing happens."""
         self.has_asked_to_keep = False
         self.silent_until = -math.inf
         self.last_contact = -math.inf
@@ -111,6 +122,8 @@ class Companion:
         self.heard: deque[str] = deque(maxlen=MOST_HEARD)
         """The rules that people said, the last one last."""
         self.last_voice = self.last_farewell = self.last_dialogue = self.last_tender = NEVER
+        self.talker = ""
+        """The name of who talks; empty for a stranger."""
         self.is_wondering = False
         """Whether it asked the last question by itself, not for a task."""
         self.is_held = False
@@ -169,8 +182,10 @@ class Companion:
         if reply.event:
             self.context.events.raise_event(reply.event, text=text, **tags)
         may_speak = may_speak or self.may_speak
-        is_wanted = may_speak and not objection
+        is_wanted = may_speak and objection is None
         then = self.replies.then.get(topic, ()) if rule in GOES_ON else ()
+        if rule == GREETING and self.talker:
+            then = self.replies.unasked["greet_by_name"]
         template, pool = self._choose(rule, goes_on, then) if is_wanted else ("", Pool())
         words = objection or self._filled_in(template, text, tags)
         # What it says of its feeling must not be hidden by another face.
@@ -189,7 +204,14 @@ class Companion:
     async def _say_after(self, context: TaskContext, seconds: float, words: str) -> None:
         self._said_last = words
         await context.clock.sleep(seconds)
+        self.agreeing.start(self._agree, words)
         await verbs.say(context, words)
+
+    async def _agree(self, context: TaskContext, words: str) -> None:
+        """Let the face go with the words, where it says something else."""
+        await context.clock.sleep(FELT_SECONDS)
+        if label := face_for(words, self._shown()):
+            self.show(label)
 
     def hold(self) -> None:
         """Wait: the person goes on with the sentence that it acts on."""
@@ -220,8 +242,9 @@ class Companion:
             self.voice.say(words)
 
     def make(self, gesture: str) -> None:
-        """Make a gesture, instead of one that is being made."""
-        self.gestures.start(verbs.gesture, gesture)
+        """Make a gesture that suits the face, instead of one that is being made."""
+        if suits(gesture, self._shown()):
+            self.gestures.start(verbs.gesture, gesture)
 
     def say(self, words: str) -> None:
         """Say it, interrupting other speech; nothing while it is asked to be quiet."""
@@ -291,6 +314,7 @@ class Companion:
         facts: dict[str, Callable[[], object]] = {
             "text": lambda: text,
             "name": lambda: self.replies.name,
+            "person": lambda: self.talker,
             "time": self._time_words,
             "date": self._date_words,
             "battery": self._percent_of_battery,
@@ -417,6 +441,12 @@ class Companion:
             self.face.start(verbs.show, "listening", quiet_for)
         else:
             self.face.stop()
+
+    def _shown(self) -> str:
+        """The expression that is to be seen; "" while it is faint."""
+        slot: Latest[Expression] = self.context.board.slot("expression")
+        expression = slot.value or Expression()
+        return expression.label if expression.intensity >= SEEN else ""
 
     def is_showing(self, label: str) -> bool:
         """Whether it shows an expression instead of what it feels."""

@@ -49,23 +49,24 @@ async def pose(context: TaskContext) -> None:
         motion = display.motion
         if motion is None or motion == shown:
             shown = motion
-        elif now - moved >= REST_SECONDS and _may_move(companion):
+        elif now - moved >= REST_SECONDS and may_move(companion):
             shown, back = motion, min(motion.backs_off, ground.behind())
             if not motion.turns and back < LEAST_BACK:
                 continue
             moved = now
-            context.events.raise_event("emotion.moved", emotion=companion.emotion.feeling().label)
-            companion.motion.start(_move, motion, back)
+            context.events.raise_event("emotion.moved", emotion=display.shown.label)
+            companion.motion.start(express, motion, back)
 
 
-def _may_move(companion: Companion) -> bool:
+def may_move(companion: Companion) -> bool:
     """Whether nobody needs it to stand still."""
     now = scene(companion, NEVER)
     is_needed = now.is_voice_heard or now.is_question_open or now.is_driving
     return not (is_needed or now.is_asleep or companion.guard.must_wait)
 
 
-async def _move(context: TaskContext, motion: ExpressiveMotion, back: float) -> None:
+async def express(context: TaskContext, motion: ExpressiveMotion, back: float = 0.0) -> None:
+    """Move as a feeling or an idle act says; `back` is how far it backs off, in meters."""
     if back >= LEAST_BACK:
         await verbs.move(context, -back, motion.pace * CRUISE)
     for number, angle in enumerate(motion.turns):

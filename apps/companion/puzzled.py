@@ -21,10 +21,12 @@ from hri.conversation import (
     deed_of,
     different,
     echo_of,
+    fields_of,
     introduced,
     nearest_sentence,
     sentiment_of,
 )
+from hri.robot import verbs
 from hri.speech import (
     LEAST_SURE,
     QUESTION,
@@ -34,11 +36,12 @@ from hri.speech import (
     guess_rule,
     normalize,
     parse,
+    values_of,
 )
+from hri.task import TaskContext
 
 from .companion import FAREWELLS, TENDER, Companion
 from .replies import Reply
-from .reply_texts import fields_of
 
 CLEAR = 0.3
 """Confidence from which words that do not count say what a sentence was about."""
@@ -107,11 +110,35 @@ def puzzle(companion: Companion, heard: Mapping[str, Any]) -> None:
         companion.show("confused")
         companion.tell("which", one=choices[0], other=choices[1])
         return
+    if (unsure := heard.get("unsure")) and _is_for_it(companion, heard):
+        found = parse(companion.listener.loaded_grammar, str(heard["text"]))
+        if found is not None and _can_ask_for(companion, found.rule, unsure[0]):
+            companion.puzzlement.last = now
+            companion.show("confused")
+            sure = dict(heard.get("sure", {}))
+            companion.lessons.start(_ask_for, companion, found.rule, unsure[0], sure)
+            return
     examples = companion.examples()
     offers = [as_said(one) for rule, one in examples.items() if _is_worth_offering(companion, rule)]
     answer = companion.puzzlement.answer(_puzzle_of(companion, heard, is_typed), offers, now)
     if answer is not None:
         _tell(companion, answer, str(heard["text"]))
+
+
+def _can_ask_for(companion: Companion, rule: str, tag: str) -> bool:
+    """Whether a value of a command can be said by itself, and no question is open."""
+    is_open = bool(companion.context.board.slot(QUESTION).value) or companion.lessons.is_busy
+    values = values_of(companion.listener.loaded_grammar, rule, tag)
+    return rule in companion.replies.replies and bool(values.public_rules) and not is_open
+
+
+async def _ask_for(
+    context: TaskContext, companion: Companion, rule: str, tag: str, sure: dict[str, Any]
+) -> None:
+    """Ask for the value that was not clear, and do what the whole command says."""
+    answer = await verbs.ask_value(context, rule, tag)
+    if answer is not None:
+        companion.reply(rule, answer.command or answer.text, {**sure, **answer.tags})
 
 
 def _tell(companion: Companion, answer: Answer, text: str) -> None:

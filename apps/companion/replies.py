@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from inspect import Parameter
 from pathlib import Path
 
-from hri.conversation import DAY, PARTS_OF_DAY, Wording
+from hri.conversation import DAY, PARTS_OF_DAY, Wording, check_text, fields_of
 from hri.core import (
     OWN_SUBJECTS,
     AuthoringError,
@@ -25,7 +25,7 @@ from hri.speech import Grammar, sure_tags
 from hri.task import ImmediateTask, TaskType
 
 from .reply_files import KIND, joined_entries, parts_of
-from .reply_texts import check_braces, fields_of, read_wording
+from .reply_texts import read_wording
 
 FILE = "replies.toml"
 AFTER_YES = ("keep", "see")
@@ -191,6 +191,24 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
     "found": ("Here's your {thing}.",),
     "not_found": ("I looked around, but I couldn't find your {thing}.",),
     "forgotten": ("Okay, I forgot your {thing}.",),
+    "greet_by_name": ("Hello, {person}!",),
+    "met_again": ("Hello again, {person}!",),
+    "met_after_days": ("Hello, {person}! I haven't seen you for {days}.",),
+    "met_kind": ("You were so nice to me last time.",),
+    "met_rude": ("I hope we get along better today.",),
+    "met_sad": ("You were sad last time. I hope you feel better.",),
+    "have_we_met": ("Have we met before, {person}?",),
+    "name_known": ("I know, {person}.",),
+    "name_unclear": ("Sorry, I didn't get your name. You can type it, if you like.",),
+    "may_remember": ("May I remember you, {person}?",),
+    "will_remember": ("Thank you, {person}. I'll remember you.",),
+    "will_not_remember": ("Okay. I'll only know you for today.",),
+    "memory_full": ("My memory is full. Someone has to forget something first.",),
+    "you_are": ("You're {person}.",),
+    "nothing_told": ("You haven't told me more than that.",),
+    "forgot_that": ("Okay, I forgot that: {value}.",),
+    "forget_all": ("Should I forget all about you, {person}?",),
+    "forgot_you": ("Done. I don't know you anymore.",),
     "unknown_thing": ("I don't know your {thing} yet. Hold it up and say: this is my {thing}.",),
 }
 """What need not be written."""
@@ -303,7 +321,7 @@ def _unasked(spoken: Table) -> dict[str, tuple[str, ...]]:
     for key in USUALLY_UNASKED.keys() & unasked.keys():
         usual = [field for text in USUALLY_UNASKED[key] for field in fields_of(text)]
         for text in unasked[key]:
-            check_braces(spoken, text, (*usual, *MORE_FILLED_IN.get(key, ())), key)
+            check_text(spoken, text, (*usual, *MORE_FILLED_IN.get(key, ())), key)
     return unasked
 
 
@@ -355,7 +373,7 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
     action, task = entry.string("action", ""), _action(rule, entry, vocabulary)
     event = _event(entry)
     because = entry.string("because", "")
-    check_braces(entry, because, braces, "because")
+    check_text(entry, because, braces, "because")
     entry.finish()
     return Reply(wording, feel, intensity, show, gesture, action, task, event, because)
 
@@ -440,7 +458,7 @@ def _then(entry: Table, vocabulary: Vocabulary, is_own: bool) -> dict[str, tuple
     if is_own:
         _refuse_unknown_rules(entry, "after", after, vocabulary)
     for text in texts:
-        check_braces(entry, text, (), "say")
+        check_text(entry, text, (), "say")
     entry.finish()
     return dict.fromkeys(after, texts)
 

@@ -12,15 +12,11 @@ Which one is said at a moment is decided in `hri.conversation.choosing`.
 
 from __future__ import annotations
 
-import string
 from collections.abc import Collection
 
-from hri.conversation import PARTS_OF_DAY, Texts, Wording
+from hri.conversation import PARTS_OF_DAY, Texts, Wording, check_text
 from hri.core import Table, did_you_mean
 from hri.emotion import KNOWN_FEELINGS
-
-LONGEST = 5000
-"""Characters of what is said; voices say no more."""
 
 
 def read_wording(entry: Table, braces: Collection[str], personalities: Collection[str]) -> Wording:
@@ -43,7 +39,7 @@ def _texts(table: Table, key: str, braces: Collection[str]) -> Texts:
     is_list = isinstance(table.data.get(key), list)
     texts = table.strings(key) if is_list else [table.string(key, "")]
     for text in texts:
-        check_braces(table, text, braces, key)
+        check_text(table, text, braces, key)
     return tuple(text for text in texts if text)
 
 
@@ -55,26 +51,3 @@ def _texts_by_name(
         if name not in known:
             raise given.error(name, f'unknown {key} "{name}"', did_you_mean(name, known))
     return {name: _texts(given, name, braces) for name in given.data}
-
-
-def fields_of(text: str) -> list[str]:
-    """The names in braces in a text."""
-    return [field for _, field, _, _ in string.Formatter().parse(text) if field]
-
-
-def check_braces(table: Table, text: str, known: Collection[str], key: str) -> None:
-    """Refuse a text that is too long, or in which something is never filled in."""
-    if len(text) > LONGEST:
-        raise table.error(key, f"a text of {len(text)} characters", f"keep it within {LONGEST}")
-    try:
-        parts = list(string.Formatter().parse(text))
-    except ValueError as error:
-        raise table.error(key, f"{error}", "close every {brace}") from error
-    for _, name, form, conversion in parts:
-        if name is None:
-            continue
-        if form or conversion:
-            what = f"{{{name}}} has a format, which braces do not take"
-            raise table.error(key, what, f"write {{{name}}}")
-        if name not in known:
-            raise table.error(key, f"nothing fills in {{{name}}}", did_you_mean(name, known))

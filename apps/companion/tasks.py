@@ -5,8 +5,10 @@ wonder      asks a yes/no question now and then
 take_saved_replies  reads the replies again when they are saved
 notice      reacts to a bump and a low battery, and feels ignored; the triggers in
             emotions/stimuli handle other events
+acquaint    keeps the memory of people, and greets those whose face is known
 attend      nods to who talks for long, and shows that it thinks
 pose        moves the base a little as a feeling begins to show
+idle        does small things while nothing happens: looks about, hums, stretches, dozes off
 watch_keys  space stops it, r releases a base that must be released, m mutes the microphone, v turns
             the camera off and on, c switches captions, escape ends
 """
@@ -27,9 +29,35 @@ from hri.hal import Screen
 from hri.robot import App
 from hri.task import TaskContext
 
-from .actions import come, eyes, follow, move, quiet, release, sleep, stop, turn, wake
+from .acquaintance import (
+    Acquaintance,
+    acquaint,
+    check_memory,
+    forget_me,
+    forget_that,
+    introduce,
+    know_about_me,
+    know_me,
+)
+from .actions import (
+    come,
+    eyes,
+    fidget_again,
+    follow,
+    move,
+    no_fidgeting,
+    no_sounds,
+    quiet,
+    release,
+    sleep,
+    sounds_again,
+    stop,
+    turn,
+    wake,
+)
 from .asking import ask, next_question, scene
 from .companion import Companion, authored_replies, vocabulary_of
+from .idling import authored_acts, idle
 from .moving_by_feeling import pose
 from .presence import attend
 from .puzzled import puzzle
@@ -38,22 +66,33 @@ from .reply_files import with_named_files
 from .things import find, forget, learn, see, where
 
 __all__ = [
+    "acquaint",
     "attend",
     "check",
     "come",
     "converse",
     "eyes",
+    "fidget_again",
     "find",
     "follow",
     "forget",
+    "forget_me",
+    "forget_that",
+    "idle",
+    "introduce",
+    "know_about_me",
+    "know_me",
     "learn",
     "move",
+    "no_fidgeting",
+    "no_sounds",
     "notice",
     "pose",
     "quiet",
     "release",
     "see",
     "sleep",
+    "sounds_again",
     "stop",
     "take_saved_replies",
     "turn",
@@ -78,6 +117,8 @@ ALONE_SECONDS = 60.0
 def check(context: TaskContext) -> None:
     """Read what the tasks will need, before anything is opened. Raises AuthoringError."""
     authored_replies(context)
+    authored_acts(context)
+    check_memory(context)
 
 
 def _changed_at(files: Sequence[Path]) -> list[float]:
@@ -126,7 +167,7 @@ async def take_saved_replies(context: TaskContext) -> None:
 
 async def converse(context: TaskContext) -> None:
     """Reply to everything that is heard, and show what is not understood."""
-    companion = Companion.of(context)
+    companion, known = Companion.of(context), Acquaintance.of(context)
     with context.queue(
         "speech.heard", "speech.rejected", "speech.continued", "speech.confirmed"
     ) as queue:
@@ -142,6 +183,7 @@ async def converse(context: TaskContext) -> None:
             if event.name != "speech.heard":
                 continue
             try:
+                known.note(heard["rule"], heard["tags"])
                 companion.reply(
                     heard["rule"],
                     heard.get("command") or heard["text"],

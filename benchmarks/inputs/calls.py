@@ -101,6 +101,15 @@ def face_settings(path: Path) -> object:
     return load_settings(path, {*drawings, *(side for name in drawings for side in sides_of(name))})
 
 
+def idle_acts(path: Path) -> object:
+    """The acts of a file beside those that come with `hri`, for the gestures of `robot`."""
+    from hri.conversation import load_idle_acts
+    from hri.face.model import load_face
+    from hri.face.motion.gesture_tracks import load_gestures
+
+    return load_idle_acts([path], load_gestures(load_face()))
+
+
 def face_weights(path: Path) -> object:
     """The recording of a face."""
     from hri.face.live_link import read_weights
@@ -161,6 +170,13 @@ def names(path: Path) -> object:
     return read_names(path, "friend")
 
 
+def known_names(path: Path) -> object:
+    """What a free slot usually is."""
+    from hri.speech.grammar.name_lists import read_known
+
+    return read_known(path)
+
+
 def color(path: Path) -> object:
     """A color, and what is done with it."""
     import numpy as np
@@ -176,6 +192,15 @@ def people(path: Path) -> object:
     from hri.vision.tracking.face_recognition import Acquaintances
 
     return Acquaintances.load(path)
+
+
+def relations(path: Path) -> object:
+    """What an app remembers of people, and how it is said."""
+    from hri.conversation import load_relations
+
+    found = load_relations([path]).values()
+    texts = [text for one in found for text in (one.tell, *one.ask, *one.ask_for, *one.follow_up)]
+    return [text.format(name="Anna", value="jazz") for text in texts]
 
 
 def poses(path: Path) -> object:
@@ -212,9 +237,10 @@ def _replies_of_companion() -> tuple[Any, Any]:
 def replies(path: Path) -> object:
     """The companion's replies, as those of an app that extends it."""
     module, vocabulary = _replies_of_companion()
-    beside = path.parent / "smalltalk"
-    if not beside.exists():
-        beside.symlink_to(vocabulary.app.folder / "smalltalk")
+    for name in ("smalltalk", "people.toml"):
+        beside = path.parent / name
+        if not beside.exists():
+            beside.symlink_to(vocabulary.app.folder / name)
     app = replace(vocabulary.app, folder=path.parent, base=vocabulary.app)
     found = module.load_replies([path], replace(vocabulary, app=app))
     return [text.format_map(_Anything()) for reply in found.replies.values() for text in reply.say]

@@ -9,6 +9,7 @@ import tempfile
 import wave
 import zipfile
 from collections.abc import Callable, Iterable, Mapping
+from datetime import datetime
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -85,6 +86,11 @@ def expectations() -> list[bytes]:
     )
 
 
+def outside_sentences() -> list[bytes]:
+    """Sentences that mean no command."""
+    return _lines("# what else people say\nfly to the moon\n\nwho ate my biscuits?\n")
+
+
 def expressions() -> list[bytes]:
     """Values of parameters."""
     return _lines("-5*pi/6", "(1+2)/3-e*2.5", "+-1e3")
@@ -118,6 +124,11 @@ def names() -> list[bytes]:
     return _lines("# Who\nRobin Smith\nthe boss = Alex\nroom twelve = 12\nyes = true\n")
 
 
+def known_names() -> list[bytes]:
+    """What the free slot of a grammar usually is."""
+    return _lines("# Who\nRobin\nJean-Luc\nMary Ann\n")
+
+
 def manifests() -> list[bytes]:
     """Recordings and what is said in them."""
     row = "a.wav\tgo back one meter\tmove: distance=-1\nb.wav\t-\n"
@@ -134,6 +145,36 @@ def memories() -> list[bytes]:
     for name, person in (("praise", "Ann"), ("scold", "Bob"), ("bump", None)):
         affect = dynamics.feel(affect, name, 0.7, affect.time + 3.0, person)
     return [dump(Memory(affect.imprint, affect.time + 3.0, 1e9)).encode()]
+
+
+def relations() -> list[bytes]:
+    """What an app remembers of people."""
+    return _lines(
+        '[relation.likes]\nseveral = true\ntell = "You like {value}."\n'
+        'ask_for = "What do you like?"\nfollow_up = ["How was your {value} evening, {name}?"]\n',
+        '[relation.sister]\ntell = "Your sister is {value}."\nask = "Is {value} well?"\n',
+    )
+
+
+def databases() -> list[bytes]:
+    """The people that a robot remembers."""
+    from hri.conversation.memory import Memory
+    from hri.conversation.memory_file import Contents, keep
+    from hri.conversation.relations import Relation
+
+    now, made = datetime(2026, 5, 4, 9, 30), []
+    memory = Memory({"likes": Relation("likes", "You like {value}.", several=True)})
+    for name in ("Anna", "Zoë"):
+        id = memory.introduce(name, now, heard=("AE1", "N", "AH0")).id
+        memory.allow(id, now, "word")
+        memory.learn(id, "likes", "jazz", now, {"kind": "music", "how": 2.5})
+        memory.feel(id, "joy", "praise", now)
+        memory.note_asked(id, "likes", "jazz", "How was your jazz evening?")
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "people.db")
+            keep(file, Contents(memory.remembered, memory.last_id))
+            made.append(file.read_bytes())
+    return made
 
 
 def people() -> list[bytes]:

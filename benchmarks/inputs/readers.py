@@ -80,12 +80,18 @@ READERS: dict[str, Reader] = {
         "g.toml",
     ),
     "head poses": Reader(calls.poses, good.poses, "poses.csv"),
+    "idle acts": Reader(calls.idle_acts, _shipped("emotions/idle.toml"), "idle.toml"),
+    "kinds of facts": Reader(calls.relations, good.relations, "memory.toml"),
     "lexicon": _named(
         "hri.speech.pronunciation.lexicon:read_lexicon", good.lexicons, "lexicon.txt"
     ),
     "list of names": Reader(calls.names, good.names, "names.txt"),
+    "list of a free slot": Reader(calls.known_names, good.known_names, "names.txt"),
     "manifest": Reader(calls.manifest, good.manifests, "manifest.tsv"),
     "memory of feelings": _named("hri.emotion.persistence:recall", good.memories, "feelings.json"),
+    "memory of people": _named(
+        "hri.conversation.memory_file:recall", good.databases, "people.db", is_text=False
+    ),
     "network": _named(
         "hri.behavior.network_file:load_network",
         _shipped("config/networks/*.xml", "apps/*/*.xml"),
@@ -101,6 +107,11 @@ READERS: dict[str, Reader] = {
     ),
     "objects by name": Reader(calls.objects, good.object_names, "a.mdl"),
     "order to the robot": Reader(calls.order, good.orders, "order.json"),
+    "outside sentences": _named(
+        "hri.speech.grammar.lint.outside_sentences:read_sentences",
+        good.outside_sentences,
+        "outside.txt",
+    ),
     "people": Reader(calls.people, good.people, "faces.json"),
     "personality": _named(
         "benchmarks.inputs.good:load_personality_file",
@@ -134,6 +145,11 @@ READERS: dict[str, Reader] = {
         "hri.hal.drivers.wav_file:load_sound", good.sounds, "a.ogg", is_text=False
     ),
     "sound, WAV": _named("hri.hal.drivers.wav_file:load_sound", good.wavs, "a.wav", is_text=False),
+    "sounds that are not words": _named(
+        "hri.speech.vocalizations.vocalization:load_sounds",
+        _shipped("emotions/sounds.toml"),
+        "sounds.toml",
+    ),
     "speech with markup": Reader(calls.speech, good.speeches, "speech.xml"),
     "stimuli": Reader(
         calls.stimuli,

@@ -76,8 +76,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 CATEGORIES = (
-    *("behave", "behavior", "drive", "emotion", "events", "face", "net", "network", "recording"),
-    *("resources", "service", "studio", "task", "vision", "whereabouts"),
+    *("behave", "behavior", "drive", "emotion", "events", "face", "memory", "net", "network"),
+    *("recording", "resources", "service", "studio", "task", "vision", "whereabouts"),
 )
 """Values of `--debug`: the parts of `hri` that write a log."""
 

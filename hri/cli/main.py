@@ -25,6 +25,8 @@ COMMANDS = {
     "schema": ("hri.cli.schema", "export the schemas of behaviors as XML"),
     "grammar": ("hri.cli.grammar", "check, parse with, and expand grammars"),
     "say": ("hri.cli.voice.say", "say a text, or write it to a WAV file"),
+    "sounds": ("hri.cli.voice.sounds", "list, check and make sounds that are not words"),
+    "idle": ("hri.cli.idle", "list, check and try what it does while nothing happens"),
     "models": ("hri.cli.models", "list and fetch models of speech and faces"),
     "voices": ("hri.cli.voice.voices", "list the voices, by language"),
     "face": ("hri.cli.face", "check, render and show faces"),
@@ -33,6 +35,7 @@ COMMANDS = {
         "report nods and shakes in a video, a camera or series of poses",
     ),
     "emotion": ("hri.cli.emotion", "check and try out emotions"),
+    "memory": ("hri.cli.memory", "list, show and export what the robot remembers of people"),
     "forget": ("hri.cli.forget", "erase data kept about people, or about one person"),
     "watch": (
         "hri.cli.vision.watch",
@@ -48,7 +51,8 @@ COMMANDS = {
 """Each command is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 
 POSIX_ONLY = frozenset((
-    "bench", "companion", "devices", "doctor", "drive", "forget", "run", "soak", "studio", "token",
+    "bench", "companion", "devices", "doctor", "drive", "forget", "memory", "run", "soak", "studio",
+    "token",
 ))  # fmt: skip
 """Commands that Windows cannot run."""
 

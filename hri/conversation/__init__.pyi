@@ -1,3 +1,4 @@
+from .agreement import face_for as face_for, suits as suits
 from .choosing import (
     Moment as Moment,
     Pool as Pool,
@@ -19,16 +20,39 @@ from .examples import (
     nearest_sentence as nearest_sentence,
     sayings as sayings,
 )
-from .first_names import introduced as introduced
+from .facts import Fact as Fact, fact_of as fact_of
+from .first_names import as_name as as_name, introduced as introduced
 from .floor import (
     GIVES_WAY_SECONDS as GIVES_WAY_SECONDS,
     NEVER as NEVER,
     Scene as Scene,
     gives_way as gives_way,
     may_begin as may_begin,
+    may_murmur as may_murmur,
 )
 from .gist import Gist as Gist
+from .idle_acts import (
+    IdleAct as IdleAct,
+    IdleActs as IdleActs,
+    Idler as Idler,
+    Stillness as Stillness,
+    load_idle_acts as load_idle_acts,
+)
+from .memory import (
+    MEETING_GAP as MEETING_GAP,
+    Meeting as Meeting,
+    Memory as Memory,
+    MemoryFull as MemoryFull,
+    Question as Question,
+)
+from .memory_file import people_file as people_file
+from .memory_keeper import (
+    PEOPLE_FILE as PEOPLE_FILE,
+    MemoryKeeper as MemoryKeeper,
+    file_of_run as file_of_run,
+)
 from .motions import turn_words as turn_words, way_words as way_words
+from .people import Asked as Asked, Consent as Consent, Felt as Felt, KnownPerson as KnownPerson
 from .puzzlement import (
     TELLING as TELLING,
     Answer as Answer,
@@ -38,4 +62,10 @@ from .puzzlement import (
     as_said as as_said,
 )
 from .reflection import deed_of as deed_of, echo_of as echo_of
+from .relations import (
+    Relation as Relation,
+    load_relations as load_relations,
+    remembered_by as remembered_by,
+)
 from .sentiment import sentiment_of as sentiment_of
+from .spoken_text import check_text as check_text, fields_of as fields_of

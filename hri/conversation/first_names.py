@@ -5,6 +5,7 @@ A name shows that a line is for someone else ("leo, stop that"), or that someone
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
@@ -12,6 +13,8 @@ from pathlib import Path
 from hri.speech.grammar.words import normalize
 
 NAMES = Path(__file__).with_name("first_names.txt")
+_BEGINNING = re.compile(r"(?:^|(?<=-)|(?<=^.'))[^\W\d_]")
+"""Letters of a name that are capital."""
 INTRODUCING = (
     ("i'm",),
     ("i", "am"),
@@ -41,6 +44,15 @@ def introduced(text: str, own: str = "") -> str:
         return words[0].capitalize() if words[0] in first_names() else ""
     names = (name for start in range(len(words)) for name in _behind(words, start))
     return next(names, "").capitalize()
+
+
+def as_name(text: str) -> str:
+    """A name as it is written: "jean-luc" is "Jean-Luc"; words with capital letters stay."""
+    return " ".join(word if word != word.lower() else _capitalized(word) for word in text.split())
+
+
+def _capitalized(word: str) -> str:
+    return _BEGINNING.sub(lambda letter: letter[0].upper(), word)
 
 
 def _behind(words: Sequence[str], start: int) -> Sequence[str]:

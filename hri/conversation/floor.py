@@ -25,6 +25,10 @@ FAREWELL_SECONDS = 20.0
 """After a farewell, and for as long as no one says anything else."""
 DIALOGUE_SECONDS = 20.0
 """How long a dialogue may go on after a question of a task, while that thinks."""
+MURMUR_AFTER_SECONDS = 60.0
+"""After the last word of anyone, before it hums to itself."""
+ABOUT_SECONDS = 900.0
+"""How long after the last words someone may still be about."""
 NIGHT = (22, 6)
 """Hours of the day at which the night begins and ends."""
 GIVES_WAY_SECONDS = 0.3
@@ -98,6 +102,20 @@ def why_silent(scene: Scene) -> str:
 def may_begin(scene: Scene) -> bool:
     """Whether the robot may say something that nobody asked for."""
     return not why_silent(scene)
+
+
+def may_murmur(scene: Scene) -> bool:
+    """Whether it may hum or sigh to itself: nothing has happened for a while, and someone is in
+    sight, or has talked to it and may still be about.
+    """
+    now = scene.now
+    is_busy = scene.is_voice_heard or scene.is_speaking or scene.is_question_open
+    is_resting = scene.is_asleep or scene.is_quiet or is_night(scene.hour)
+    last = max(scene.understood, scene.voice, scene.dialogue)
+    is_anyone_about = scene.is_seen or now - scene.understood < ABOUT_SECONDS
+    is_time = now - last >= MURMUR_AFTER_SECONDS and is_anyone_about
+    is_tender = now - scene.tender < TENDER_SECONDS + MURMUR_AFTER_SECONDS
+    return is_time and not (is_busy or is_resting or is_tender or scene.is_driving)
 
 
 def gives_way(begun: float, voice: float) -> bool:

@@ -20,6 +20,7 @@ from hri.face.model import load_face
 from hri.speech.answering import AGAIN, CANCEL, answering
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import Grammar, parse
+from hri.speech.grammar.slot_values import values_of
 from hri.speech.tasks import answers_of, listener_of, next_heard, play, say, wait_for_speech
 from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
@@ -156,6 +157,25 @@ async def ask(
     return await _ask(context, question, timeout, retries, _plain_answer)
 
 
+async def ask_value(
+    context: TaskContext, rule: str, tag: str, timeout: float = 6.0
+) -> Utterance | None:
+    """Ask for one value of a command in force, "Which size?"; the answer with its tags, or None.
+
+    Meanwhile the grammar is what gives that tag of the rule its value (`values_of`), also among
+    other words; else as `ask`.
+    """
+    asked = f"Which {_in_words(tag)}?"
+
+    def prepared(grammar: Grammar) -> Grammar:
+        return answering(values_of(grammar, rule, tag))
+
+    path = str(context.behavior(Listener).loaded_grammar.path)
+    async with answers_of(context, path, prepared) as whole:
+        answer_of = _HeardAnswer(values_of(whole, rule, tag), asked)
+        return await _ask(context, asked, timeout, 0, answer_of)
+
+
 @dataclass(frozen=True, slots=True)
 class _Again:
     """Something is left to be asked, or was not understood by the person."""
@@ -273,9 +293,10 @@ class _HeardAnswer:
         self, context: TaskContext, event: Event
     ) -> tuple[Utterance | None] | _Refusal | _Again | None:
         sure, unsure = (event.properties.get(name) for name in ("sure", "unsure"))
-        if event.name == "speech.rejected" and sure and unsure:
+        if event.name == "speech.rejected" and unsure:
             asked = f"Which {_in_words(unsure[0])}?"
-            return _Again(asked, _HeardAnswer(self._grammar, asked, {**self._sure, **sure}))
+            kept = {**self._sure, **(sure or {})}
+            return _Again(asked, _HeardAnswer(self._grammar, asked, kept))
         heard = context.behavior(Listener).last_utterance
         if event.name != "speech.heard" or heard is None:
             return None

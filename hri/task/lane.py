@@ -26,6 +26,10 @@ class Lane:
     def is_busy(self) -> bool:
         return self._task is not None and not self._task.is_over
 
+    def runs(self, job: Job) -> bool:
+        """Whether this job is the one that runs, not another that took its place."""
+        return self.is_busy and self._job is not None and self._job[0] is job
+
     def start(self, job: Job, *arguments: Any) -> None:
         """Start a job; the one that runs is cancelled."""
         self.stop()

@@ -66,9 +66,10 @@ class Visit:
         prepare=lambda robot: None,
         devices=(SMALL_SCREEN, BLIND),
         jobs=(),
+        clock=None,
         **more,
     ):
-        clock = FakeClock()
+        clock = clock or FakeClock()
         self.robot = Robot(config=config, clock=clock, seed=seed, devices=devices, **more)
         prepare(self.robot)
         world = self.robot.resources.obtain("world", SimulatedWorld)
@@ -457,7 +458,9 @@ def test_a_command_without_a_reply_is_found(own_app):
 def test_all_mistakes_of_the_replies_are_told_at_once(own_app):
     replies = own_app / "replies.toml"
     text = replies.read_text().replace("[reply.yes]\n\n[reply.no]\n", "[reply.tides]\n", 1)
-    text = text.replace('show = "happy"', 'show = "hapy"', 1).replace('bump = "Ouch!"\n', "")
+    text = text.replace('show = "happy"', 'show = "hapy"', 1).replace(
+        'bump = "[ouch] I bumped into something."\n', ""
+    )
     replies.write_text(text)
     with pytest.raises(AuthoringErrors) as error:
         Robot(app=str(own_app), config="simulated", clock=FakeClock())

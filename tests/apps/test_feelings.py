@@ -57,7 +57,7 @@ def test_an_empty_battery_is_a_need(visit):
 
 def test_what_happens_is_felt_once_and_talked_about(visit):
     assert 0.6 < visit.felt[1].emotions["surprise"] <= 0.75
-    assert visit.said()[0] == "Ouch!"
+    assert visit.said()[0] == "[ouch] I bumped into something."
 
 
 def test_it_tells_about_the_feeling_that_it_was_asked_about(visit):

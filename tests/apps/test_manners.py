@@ -9,8 +9,8 @@ from hri.conversation.puzzlement import Kind
 from hri.core.clock import FakeClock
 from hri.hal.resource import Description
 from hri.robot import verbs
-from hri.speech.behaviors import Listener
-from tests.apps.test_companion import SLOW_CAMERA, Visit
+from hri.speech.behaviors import Listener, Voice
+from tests.apps.test_companion import SEEING, SLOW_CAMERA, Visit
 from tests.devices import BLIND, UNSEEN
 
 UNKNOWN = ["glue a zeppelin", "purple elephants", "juggle nine pineapples", "iron a shirt"]
@@ -61,7 +61,7 @@ def test_each_line_that_is_typed_gets_an_answer_and_none_twice():
         ("can i have a cookie", "I don't think I can do that, sorry."),
         ("my brother broke his arm", "Oh no. I'm sorry to hear that."),
         ("my aunt bought a boat", "Your aunt bought a boat? Tell me more."),
-        ("your beeping is annoying tonight", "Ouch. That wasn't very nice."),
+        ("your beeping is annoying tonight", "[ouch] That wasn't very nice."),
         ("where do penguins nest", "I don't know where. I only see what's in front of me."),
         ("yes please", "I didn't ask anything just now."),
     ],
@@ -220,3 +220,27 @@ def test_who_forbids_something_ends_the_motion_that_it_may_be_about(line):
     later = [pose for time, pose in visit.poses if time > answers[0].time + 1.0]
     assert abs(later[0].x) > 0.2, "it drove before"
     assert max(abs(pose.x - later[0].x) for pose in later) < 0.01
+
+
+def test_it_giggles_until_it_is_asked_not_to():
+    lines = {1.0: "stop giggling", 5.0: "you may giggle again"}
+    seen = []
+
+    async def look(context):
+        for time in (0.5, 4.0, 9.0):
+            await context.clock.sleep_until(time)
+            seen.append(context.behavior(Voice).makes_sounds)
+
+    visit = Visit(10, {}, jobs=[typing(lines), look])
+    assert seen == [True, False, True]
+    before, after = visit.said()
+    assert "[" not in before
+    assert after.startswith("[")
+
+
+def test_it_asks_for_the_one_value_that_was_not_clear_and_does_what_the_whole_says():
+    """A parcel is not among the things that it knows; the purse that comes nearest is not taken."""
+    visit = Visit(14, {2.0: "find my parcel", 8.0: "the cup"}, devices=SEEING)
+    assert visit.named("speech.rejected")[0].properties["unsure"] == ["thing"]
+    assert visit.said()[0] == "Which thing?"
+    assert "cup" in visit.said()[1]

@@ -45,7 +45,7 @@ def test_every_command_means_what_its_row_says(robot):
 def test_an_order_gives_the_slots_that_the_labels_name():
     said = "could i get a small dark roast iced mocha with lots of soy milk and sugar please"
     found = parse(load_grammar(ORDERS), said)
-    assert scoring.slots(piece(said, found.tags)) == {
+    assert scoring.slots(found.tags) == {
         "size": "small",
         "roast": "dark roast",
         "coffeeDrink": "iced mocha",

@@ -13,6 +13,7 @@ import pytest
 import hri.face.renderers.kernel  # noqa: F401 - its code is not compiled into each test's folder
 from hri.cli.diagnostics import camera as camera_tool
 from hri.cli.main import main
+from hri.conversation import personal_data
 from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.event_bus import EventBus
@@ -26,7 +27,6 @@ from hri.hal.choices import choices_file, save_choices
 from hri.hal.drivers.image_size import write_picture
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-from hri.robot import personal_data
 from hri.studio.composer.files import Library
 from hri.vision.color.color_model import find_color, load_color, own_colors, save_color
 from hri.vision.objects.local_features import SIFT
@@ -45,7 +45,7 @@ CAMERA = """\
 """
 TASKS = f"""
 
-async def introduce(context):
+async def meet(context):
     await context.clock.sleep(2.0)
     companion = Companion.of(context)
     companion.emotion.feel("praise", 1.0, "{ANNA}")
@@ -92,7 +92,7 @@ def an_app(folder):
     app = folder / "app"
     shutil.copytree(paths.find("apps", "companion"), app)
     toml = app / "app.toml"
-    toml.write_text(toml.read_text().replace('"converse"', '"converse", "introduce"'))
+    toml.write_text(toml.read_text().replace('"converse"', '"converse", "meet"'))
     (app / "tasks.py").write_text((app / "tasks.py").read_text() + TASKS)
     return app
 

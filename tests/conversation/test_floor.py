@@ -18,6 +18,7 @@ from hri.conversation.floor import (
     gives_way,
     is_night,
     may_begin,
+    may_murmur,
     why_silent,
 )
 
@@ -112,3 +113,33 @@ def test_more_that_goes_on_never_lets_it_begin(scene, what):
 def test_who_began_no_later_than_a_moment_after_it_has_the_floor(begun, later):
     voice = begun + later
     assert gives_way(begun, voice) == (voice - begun <= GIVES_WAY_SECONDS)
+
+
+STILL = Scene(now=1000.0, hour=10, understood=930.0, voice=920.0)
+
+
+def test_it_hums_to_itself_when_nothing_happens_and_someone_was_there():
+    assert may_murmur(STILL)
+    assert may_murmur(dataclasses.replace(STILL, is_seen=True))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"understood": 950.0},
+        {"voice": 995.0},
+        {"dialogue": 990.0},
+        {"understood": 50.0, "voice": 50.0},
+        {"understood": NEVER, "voice": 900.0},
+        {"tender": 900.0},
+        {"is_asleep": True},
+        {"is_quiet": True},
+        {"is_voice_heard": True},
+        {"is_speaking": True},
+        {"is_question_open": True},
+        {"is_driving": True},
+        {"hour": 23},
+    ],
+)
+def test_it_does_not_hum_into_anything(changes):
+    assert not may_murmur(dataclasses.replace(STILL, **changes))

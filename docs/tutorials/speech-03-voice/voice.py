@@ -2,7 +2,7 @@
 
 from hri.behavior import Context
 from hri.core import Clock, EmotionState, EventBus, RealClock
-from hri.emotion.display import felt_now, load_display
+from hri.emotion.display import load_display
 from hri.hal import ResourceManager, Synthesizer
 from hri.speech import Priority, Voice
 
@@ -23,7 +23,7 @@ def show_feelings(voice: Synthesizer) -> None:
     display = load_display()
     for emotion in ("joy", "sadness"):
         state = EmotionState(emotion, 1.0, 0.0, 0.0, 0.0, {emotion: 1.0})
-        prosody = display.prosody(felt_now(state))
+        prosody = display.prosody(state)
         speech = voice.synthesize(SENTENCE, prosody)
         print(f"{emotion}: {speech.duration:.1f} s, pitch {prosody.pitch:.2f}", flush=True)
 

@@ -1,10 +1,13 @@
-"""`hri grammar confuse`: finds sentences that sound alike but differ in meaning."""
+"""`hri grammar confuse`: finds sentences that sound alike but differ in meaning, and words and
+sentences from outside that would be taken for some of the grammar.
+"""
 
 from __future__ import annotations
 
 import argparse
 import json
 import sys
+from pathlib import Path
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.engine import add_engine_arguments, add_strictness, started_engine
@@ -18,8 +21,17 @@ from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.expansion import count_ways
 from hri.speech.grammar.lint.confusion import FARTHEST, SoundAlike, sound_alikes
 from hri.speech.grammar.lint.expectations import meaning_of
+from hri.speech.grammar.lint.outside_sentences import (
+    FARTHEST_OUTSIDE,
+    Taken,
+    outside,
+    read_sentences,
+    taken_for,
+)
+from hri.speech.grammar.lint.outside_words import Beside, beside, value_lists
 from hri.speech.grammar.matching import Parse, parse
-from hri.speech.language import complaint, foreign
+from hri.speech.grammar.tags import spell_tags
+from hri.speech.language import complaint, foreign, is_other_language
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.trials import Attempt, attempt, confusions, score
 
@@ -28,12 +40,21 @@ examples:
   hri grammar confuse companion                  pairs that are near by their phones
   hri grammar confuse companion --speak          speak sentences in several voices, hear them again
   hri grammar confuse my.jsgf --speak --sentences 300 --voices en-us en-gb flite:slt
+  hri grammar confuse my.jsgf --outside what_else.txt   which of these sentences are taken, for what
 
-The distance is 0 for the same sound and 1 for nothing in common; below 0.1 expect confusions in
-noise. What to do: say one of the two in other or in more words, or mark the rule @careful."""
+First come pairs of sentences, then common words beside the lists: nobody listed "soup", which is
+heard as "soap". The distance is 0 for the same sound and 1 for nothing in common; below 0.1 expect
+confusions in noise. What to do: say one of the two in other or in more words, list the word that
+people may say, too, or mark the rule @careful.
+
+--outside takes a sentence a line and shows those that the grammar does not allow and that sound
+like one that it does, with the words that differ and the values that these would set. A blank line
+and one that begins with # say nothing."""
 
 MOST_COMPARED = 3000
 """Default of --sentences, compared by their phones."""
+MOST_BESIDE = 4
+"""Common words that are shown beside one of a list."""
 MOST_SPOKEN = 60
 """Default of --sentences with --speak, in every voice."""
 
@@ -41,7 +62,11 @@ MOST_SPOKEN = 60
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     parser.add_argument(
-        "-n", type=Within(int, 1), default=25, metavar="N", help="number of pairs to show (25)"
+        "-n",
+        type=Within(int, 1),
+        default=25,
+        metavar="N",
+        help="number of pairs to show, of words and of sentences (25)",
     )
     parser.add_argument(
         "--sentences",
@@ -52,11 +77,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--farthest",
         type=Within(float, 0, 1),
-        default=FARTHEST,
         metavar="D",
-        help=f"distance ({FARTHEST})",
+        help=f"distance ({FARTHEST}; with --outside {FARTHEST_OUTSIDE})",
     )
-    parser.add_argument("--speak", action="store_true", help="speak and recognize the sentences")
+    modes = parser.add_mutually_exclusive_group()
+    modes.add_argument(
+        "--outside",
+        type=Path,
+        metavar="SENTENCES",
+        help="a file of sentences that mean none of the commands: show which are taken",
+    )
+    modes.add_argument("--speak", action="store_true", help="speak and recognize the sentences")
     parser.add_argument("--voices", nargs="+", metavar="VOICE", help="en-gb, flite:slt ...")
     add_strictness(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -67,26 +98,95 @@ def run(options: argparse.Namespace) -> int:
     grammar = load_grammar(options.file)
     if language := foreign(grammar):
         print(f"{grammar.path}: {' - '.join(complaint(grammar, language))}", file=sys.stderr)
+    if options.outside is not None:
+        return _from_outside(options, grammar)
     most = options.sentences or (MOST_SPOKEN if options.speak else MOST_COMPARED)
     sentences = grammar.sample(most, grammar.spoken_rules)
     if options.speak:
         return _by_ear(options, grammar, sentences)
+    farthest = FARTHEST if options.farthest is None else options.farthest
     with waiting("comparing"):
         readings = [
             found
             for text in sentences
             if (found := parse(grammar, text, grammar.spoken_rules)) is not None
         ]
-        pairs = sound_alikes(readings, load_lexicon(), options.farthest)
+        lexicon = load_lexicon()
+        pairs = sound_alikes(readings, lexicon, farthest)
+        words = sorted(
+            () if is_other_language(grammar) else beside(value_lists(grammar), lexicon, farthest),
+            key=lambda near: near.outside[0][1],
+        )
     if options.json:
-        told_pairs = [_pair_as_json(pair) for pair in pairs[: options.n]]
-        print(json.dumps({"compared": len(readings), "pairs": told_pairs}, indent=2))
+        result = {
+            "compared": len(readings),
+            "pairs": [_pair_as_json(pair) for pair in pairs[: options.n]],
+            "beside": [_beside_as_json(near) for near in words[: options.n]],
+        }
+        print(json.dumps(result, indent=2))
         return 0
     for pair in pairs[: options.n]:
         for line in _pair(pair).split("\n"):
             report(line)
-    report(_compared(grammar, len(readings), len(pairs), options.farthest))
+    if words:
+        report("words beside the lists")
+    for near in words[: options.n]:
+        report(_beside(near))
+    report(_compared(grammar, len(readings), len(pairs), farthest))
+    if words:
+        report(f"{grammar.path}: {len(words)} words of lists have a common word as near")
     return 0
+
+
+def _beside(near: Beside) -> str:
+    others = ", ".join(f'"{word}"' for word, _ in near.outside[:MOST_BESIDE])
+    entry = "" if near.word == near.entry.text else f' in "{near.entry.text}"'
+    value = spell_tags({near.tag: near.entry.value})
+    return f"{near.outside[0][1]:.2f}  {others}  ~  {near.word}{entry} <{near.rule.key}> {value}"
+
+
+def _beside_as_json(near: Beside) -> dict[str, object]:
+    return {
+        "rule": near.rule.key,
+        "tags": {near.tag: near.entry.value},
+        "entry": near.entry.text,
+        "word": near.word,
+        "outside": [
+            {"word": word, "distance": round(distance, 4)} for word, distance in near.outside
+        ],
+    }
+
+
+def _from_outside(options: argparse.Namespace, grammar: Grammar) -> int:
+    farthest = FARTHEST_OUTSIDE if options.farthest is None else options.farthest
+    said = read_sentences(options.outside)
+    with waiting("comparing"):
+        strange = outside(grammar, said)
+        taken = taken_for(grammar, strange, load_lexicon(), farthest)
+    if options.json:
+        found = {"outside": len(strange), "taken": [_taken_as_json(each) for each in taken]}
+        print(json.dumps(found, indent=2))
+        return 0
+    for each in taken[: options.n]:
+        said_words, heard_words = (words or "(nothing)" for words in each.difference)
+        sets = f", which sets {spell_tags(each.sets)}" if each.sets else ""
+        report(f"{each.distance:.2f}  {said_words}  ~  {heard_words}{sets}")
+        report(f'      "{each.said}"')
+        report(f'      "{each.reading.text}" {_meaning(each.reading)}')
+    near = f"no farther from one of the grammar than {farthest:g}"
+    report(f"{grammar.path}: {len(taken)} of {len(strange)} outside sentences are {near}")
+    return 0
+
+
+def _taken_as_json(taken: Taken) -> dict[str, object]:
+    reading = taken.reading
+    return {
+        "distance": round(taken.distance, 4),
+        "text": taken.said,
+        "difference": list(taken.difference),
+        "taken_for": {"text": reading.text, "rule": reading.rule, "tags": dict(reading.tags)},
+        "sets": taken.sets,
+    }
 
 
 def _pair(pair: SoundAlike) -> str:

@@ -15,6 +15,7 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.quoting import report
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.expansion import (
+    ShownWays,
     count_sentences,
     count_ways,
     random_sentence,
@@ -71,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
         else partial(_expected, grammar)
     )
     is_any = False
-    for sentence in said or sentences(grammar, rules, options.n):
+    for sentence in said or sentences(grammar, rules, options.n, ShownWays):
         is_any = True
         report(tell(sentence) if options.tags else sentence)
     if not is_any:
@@ -93,7 +94,7 @@ def _drawn(grammar: Grammar, rules: tuple[str, ...], options: argparse.Namespace
     seen: set[str] = {""}
     stale = 0
     while len(seen) <= options.random and stale < MOST_STALE:
-        sentence = random_sentence(grammar, chance, rules)
+        sentence = random_sentence(grammar, chance, rules, ShownWays)
         stale = stale + 1 if sentence in seen else 0
         if not stale:
             seen.add(sentence)

@@ -45,7 +45,7 @@ examples:
 The exit status is 0 when all are accepted, 1 when one is not.
 """
 
-NO_MEANING: dict[str, object] = {"rule": "", "tags": {}, "tree": None, "free": []}
+NO_MEANING: dict[str, object] = {"rule": "", "tags": {}, "tree": None, "free": [], "slots": []}
 """The fields for a sentence outside the grammar: all are present."""
 
 
@@ -144,6 +144,10 @@ def _meaning(reading: Parse) -> dict[str, object]:
         "tags": dict(reading.tags),
         "tree": _branch(reading.tree, words, DEEPEST),
         "free": list(reading.free),
+        "slots": [
+            {"name": slot.name, "text": slot.text, "start": slot.start, "end": slot.end}
+            for slot in reading.slots
+        ],
     }
 
 

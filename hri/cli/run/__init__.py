@@ -19,6 +19,7 @@ from hri.cli.run.studio_options import add_studio_options, show_address, studio_
 from hri.cli.terminal.ending import Ending
 from hri.cli.terminal.messages import LineFormatter, Within
 from hri.cli.terminal.streams import unfailing_output
+from hri.conversation.memory_keeper import PEOPLE_FILE
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError, NotAvailable
 from hri.core.realtime import become_realtime
@@ -155,6 +156,8 @@ def _run(
         doors=doors_of(options),
     )
     robot.resources.is_to_repeat |= is_to_repeat(options)
+    if hasattr(options, "memory"):  # a run that is repeated knows nobody
+        robot.board.slot(PEOPLE_FILE).set("", robot.clock.now())
     robot.resources.waits_for_devices = options.service
     robot.command, robot.sources = options.command, inputs(options)
     tasks = robot.app.load_tasks()

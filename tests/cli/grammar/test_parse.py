@@ -46,7 +46,7 @@ def test_json_has_all_there_is(robot, capsys):
     place = {"rule": "place", "start": 2, "end": 3, "children": ["kitchen"]}
     where = {"rule": "where", "start": 1, "end": 3, "children": ["to", place]}
     tree = {"rule": "go", "start": 0, "end": 3, "children": ["go", where]}
-    meaning = {"rule": "go", "tags": {"place": "kitchen"}, "tree": tree, "free": []}
+    meaning = {"rule": "go", "tags": {"place": "kitchen"}, "tree": tree, "free": [], "slots": []}
     parses = {"parses": [meaning], "more_parses": False}
     assert answer == {"text": "go to kitchen", "accepted": True, **meaning, **parses}
 

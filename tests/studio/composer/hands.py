@@ -52,8 +52,7 @@ class Composer:
 
     def new(self, name):
         self.page.evaluate("location.hash = '#networks'")
-        palette = self.page.locator(".composer .palette .behavior")
-        expect(palette.first).to_be_visible(timeout=20_000)  # it imports all behaviors at first
+        self.wait_for_behaviors()
         self.do("new")
         self.page.fill("#network-name", name)
         self.key("Enter")
@@ -61,6 +60,12 @@ class Composer:
     def open(self, path):
         self.page.evaluate("(path) => location.hash = '#networks/' + path", str(path))
         expect(self.page.locator(".status .path")).to_contain_text(os.path.basename(path))
+        self.wait_for_behaviors()
+
+    def wait_for_behaviors(self):
+        """A studio that has just begun imports all behaviors; until then nothing is checked."""
+        palette = self.page.locator(".composer .palette .behavior")
+        expect(palette.first).to_be_visible()
 
     def do(self, action):
         self.actions += 1
@@ -95,6 +100,15 @@ class Composer:
 
     def handle(self, port, side):
         return self.page.locator(f".react-flow__handle.{side}[data-port='{port}']")
+
+    def choose_word(self, word):
+        """Double-click a word of the text, again where the text moved under the hand."""
+        place = self.page.locator(".xml-source .cm-content").get_by_text(word)
+        for _ in range(10):
+            place.dblclick()
+            if self.page.evaluate("getSelection().toString()") == word.strip('"'):
+                return
+        raise AssertionError(f"{word} is never chosen")
 
     def part(self, id):
         return self.page.locator(f".react-flow__node[data-id='{id}']")

@@ -44,7 +44,7 @@ def tab(page):
     made = page.context.new_page()
     made.set_default_timeout(20_000)
     made.goto(page.url.partition("#")[0])
-    expect(made.locator("#link")).to_have_text("linked", timeout=20_000)
+    expect(made.locator("#link")).to_have_text("linked")
     return made
 
 
@@ -54,7 +54,7 @@ def named(page, file, name):
     hands.open(file)
     decide_later(page)
     hands.set("Name", name)
-    expect(page.locator(".status")).to_contain_text("draft kept", timeout=5000)
+    expect(page.locator(".status")).to_contain_text("draft kept")
     return hands
 
 
@@ -93,7 +93,7 @@ def test_two_tabs_keep_a_draft_each_and_a_save_forgets_one(studio, file):
         expect(dialog).to_contain_text("There is a draft that was not saved")
         page.get_by_role("button", name="Continue the draft").click()
         expect(page.get_by_label("Name", exact=True)).to_have_value("second")
-        expect(page.locator(".status")).to_contain_text("draft kept", timeout=5000)
+        expect(page.locator(".status")).to_contain_text("draft kept")
         hands.save()
         assert 'name="second"' in file.read_text()
         until(page, "() => !document.querySelector('.status').textContent.includes('•')")
@@ -114,14 +114,14 @@ def test_all_drafts_that_are_left_are_offered_and_none_goes_unasked(studio, file
         page.get_by_role("button", name="Decide later").click()
         assert drafts(file) == {"first", "second"}
         hands.set("Name", "third")
-        expect(page.locator(".status")).to_contain_text("draft kept", timeout=5000)
+        expect(page.locator(".status")).to_contain_text("draft kept")
         assert drafts(file) == {"first", "second", "third"}
         page.reload()
         expect(offers).to_have_count(3)
         offers.nth(1).get_by_role("button", name="Discard the draft").click()
         expect(offers).to_have_count(2)
         offers.first.get_by_role("button", name="Continue the draft").click()
-        expect(page.locator(".status")).to_contain_text("draft kept", timeout=5000)
+        expect(page.locator(".status")).to_contain_text("draft kept")
         page.locator(".react-flow__pane").click(position={"x": 5, "y": 5})
         with page.expect_response(lambda one: is_draft(one.request, "DELETE")):
             hands.key("Control+z")
@@ -334,7 +334,7 @@ def test_xml_that_cannot_be_read_replaces_a_good_file_only_when_that_is_meant(pa
     hands = Composer(page)
     hands.open(file)
     hands.do("text")
-    page.locator(".xml-source .cm-content").get_by_text('"true"').dblclick()
+    hands.choose_word('"true"')
     page.keyboard.type("<")
     expect(page.locator(".unreadable")).to_be_visible()
     hands.do("save")

@@ -91,8 +91,7 @@ def test_problems_appear_at_the_part_in_the_words_of_the_checker(studio, page):
     (studio.home / "wrong.xml").write_text(TUTORIAL)
     hands.open(studio.home / "wrong.xml")
     hands.do("text")
-    editor = page.locator(".xml-source .cm-content")
-    editor.get_by_text('"true"').dblclick()
+    hands.choose_word('"true"')
     page.keyboard.type("perhaps")
     expect(hands.part("input_collector").locator(".part.broken")).to_have_count(1)
     expect(page.locator(".problems")).to_contain_text("is not true or false - write true or false")
@@ -142,7 +141,7 @@ def test_a_save_whose_answer_was_lost_is_known_again_and_drafts_go_on(studio, pa
         page.route(saving, lose_the_answer)
         hands.do("save")
         hands.set("parsed_value", f"{value}1")
-        expect(page.locator(".status")).to_contain_text("draft kept", timeout=3000)
+        expect(page.locator(".status")).to_contain_text("draft kept")
         assert f'"{value}"' in file.read_text()
         page.unroute(saving)
         if is_looked_at:

@@ -209,3 +209,14 @@ export function milliseconds(work: () => unknown, turns = 15): number {
   });
   return Math.min(...times);
 }
+
+/** The least time of each work, ms, of many turns in which one follows the other: a machine that slows down meanwhile slows all. */
+export function inTurns(works: readonly (() => unknown)[], turns = 40): number[] {
+  const least = works.map(() => Infinity);
+  for (let turn = 0; turn < turns; turn++) {
+    works.forEach((work, number) => {
+      least[number] = Math.min(least[number] ?? Infinity, milliseconds(work, 1));
+    });
+  }
+  return least;
+}

@@ -13,9 +13,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from hri.conversation import memory_file
+from hri.conversation.people import KnownPerson
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.growing_files import is_growing
@@ -104,6 +107,52 @@ class Feelings(Kept):
         return set()
 
 
+class Memories(Kept):
+    """Everyone who allowed to be remembered, and what they told."""
+
+    about = "the people that the robot remembers"
+
+    def places(self) -> list[Path]:
+        files = dict.fromkeys((memory_file.people_file(), *noted("people")))
+        return [file for file in files if memory_file.traces(file)]
+
+    def people(self) -> set[str]:
+        return {one.name for place in self.places() for one in memory_file.people_of(place)}
+
+    def concerns(self, place: Path, person: str) -> bool:
+        people = memory_file.people_of(place)
+        if any(one.is_called(person) or one.without(person) != one for one in people):
+            return True
+        return any(_has_bytes(file, person) for file in memory_file.spoiled(place))
+
+    def forget(self, place: Path, person: str) -> None:
+        """Of the file itself the person, of what lies beside it, or cannot be used, the whole."""
+        delete(*(file for file in memory_file.spoiled(place) if _has_bytes(file, person)))
+        if os.path.lexists(place):
+            memory_file.change(place, partial(memory_file.without, name=person))
+
+    def delete(self, place: Path) -> None:
+        memory_file.forget_all(place)
+
+
+class Exports(Kept):
+    """The memory of people, written to where someone wanted it."""
+
+    about = "an export of the memory of people"
+
+    def places(self) -> list[Path]:
+        return noted("exports")
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return _mentions(place, person)
+
+    def needs_yes(self, person: str | None) -> bool:
+        return True
+
+    def forget(self, place: Path, person: str) -> None:
+        self.delete(place)
+
+
 class Faces(Kept):
     """Faces that were given a name, as numbers."""
 
@@ -142,10 +191,10 @@ class Lines(Kept):
     """A text file with a line for each word."""
 
     def concerns(self, place: Path, person: str) -> bool:
-        return any(_is_of(person, line) for line in _lines(place))
+        return any(_is_of(person, line) for line in lines_of(place))
 
     def forget(self, place: Path, person: str) -> None:
-        rest = [line for line in _lines(place) if not _is_of(person, line)]
+        rest = [line for line in lines_of(place) if not _is_of(person, line)]
         write_text(place, "".join(f"{line}\n" for line in rest), PRIVATE)
 
 
@@ -372,7 +421,8 @@ class Telemetry(Kept):
 
 
 KEPT: tuple[Kept, ...] = (
-    Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(), Colors(), Recordings(),
+    Feelings(), Memories(), Exports(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(),
+    Colors(), Recordings(),
     Captures("pictures", "a picture or film of the camera"),
     Captures("sounds", "a sound of the microphone"), Drafts(), Telemetry(),
 )  # fmt: skip
@@ -416,17 +466,35 @@ def people() -> set[str]:
     return set().union(*(kept.people() for kept in KEPT))
 
 
+def remembered() -> list[KnownPerson]:
+    """Everyone who is remembered, in any place that can be used."""
+    return [one for place in Memories().places() for one in memory_file.people_of(place)]
+
+
+def told_by(person: str) -> set[str]:
+    """The words of all facts of a person that are remembered."""
+    return {fact.value for one in remembered() if one.is_called(person) for fact in one.facts}
+
+
 def _there(file: Path) -> list[Path]:
     return [file] if os.path.lexists(file) or leftovers(file) else []
 
 
-def _lines(file: Path) -> Iterator[str]:
+def lines_of(file: Path) -> Iterator[str]:
     """The lines of a text, whatever is in it; it need not fit into memory."""
     if not file.is_file():
         return
     with opened(file, "text", None) as text:
         while line := text.readline(LONGEST_LINE):
             yield line.decode("utf-8", "replace").rstrip("\r\n")
+
+
+def _has_bytes(file: Path, person: str) -> bool:
+    """Whether a file of any kind holds a name."""
+    try:
+        return person.encode().lower() in read_bytes(file, "file", memory_file.LARGEST).lower()
+    except HriError:
+        return False
 
 
 def _is_draft(file: Path) -> bool:
@@ -452,10 +520,10 @@ def _is_object_of(person: str, model: ObjectModel) -> bool:
 
 def _mentions(file: Path, person: str) -> bool:
     """Whether a file of JSON or text names a person."""
-    return any(is_named(person, text) for line in _lines(file) for text in _texts(line))
+    return any(is_named(person, text) for line in lines_of(file) for text in texts_of(line))
 
 
-def _texts(line: str) -> Iterator[str]:
+def texts_of(line: str) -> Iterator[str]:
     """What a line says: the texts of its JSON, or the line itself where it is not JSON."""
     try:
         yield from _texts_in(parse_json(line))

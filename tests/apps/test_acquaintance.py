@@ -1,0 +1,111 @@
+"""The companion knows people: their names, what they told it, and whether it may keep that."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+
+from hri.conversation import PEOPLE_FILE, MemoryKeeper
+from hri.core import EventBus, FakeClock
+from tests.apps.test_companion import SEEING, Visit
+from tests.apps.test_manners import typed, typing
+
+INTRODUCED = {1.0: "my name is Anna", 6.0: "yes"}
+
+
+def said(visit):
+    return " ".join(visit.said())
+
+
+def test_who_says_their_name_is_asked_for_consent_and_called_by_it():
+    visit = typed(24, {**INTRODUCED, 12.0: "who am i", 17.0: "hello"})
+    assert "May I remember you, Anna?" in visit.said()
+    assert "Thank you, Anna. I'll remember you." in visit.said()
+    assert "You're Anna." in visit.said()
+    assert "Hello, Anna!" in visit.said()
+
+
+def test_what_people_tell_is_told_back_and_forgotten_when_they_ask():
+    visit = typed(
+        40,
+        {
+            **INTRODUCED,
+            11.0: "i like jazz",
+            13.0: "my birthday is on may third",
+            15.0: "my sister is called Eva",
+            19.0: "what do you know about me",
+            27.0: "forget what i just said",
+            32.0: "what do you know about me",
+        },
+    )
+    first, last = (words for words in visit.said() if words.startswith("You're Anna."))
+    assert first == (
+        "You're Anna. You like jazz. Your birthday is on May 3. Your sister is called Eva."
+    )
+    assert last == "You're Anna. You like jazz. Your birthday is on May 3."
+
+
+def test_a_no_keeps_it_for_the_visit_alone_and_forget_me_needs_a_yes():
+    visit = typed(
+        34, {1.0: "my name is Anna", 6.0: "no", 12.0: "forget me", 17.0: "yes", 24.0: "who am i"}
+    )
+    assert "Okay. I'll only know you for today." in visit.said()
+    assert "Should I forget all about you, Anna?" in visit.said()
+    assert "Done. I don't know you anymore." in visit.said()
+    assert "You're Anna." not in said(visit)
+
+
+def test_a_spoken_name_is_read_back_and_kept_as_it_was_heard(tmp_path):
+    file = tmp_path / "people.db"
+    lines = {2.0: "my name is peter", 9.0: "yes", 16.0: "yes"}
+
+    def keep(robot):
+        robot.board.slot(PEOPLE_FILE).set(str(file), 0.0)
+
+    visit = Visit(22, lines, prepare=keep, devices=SEEING)
+    asked = [event.properties["text"] for event in visit.named("question.asked")]
+    assert asked[:2] == ["Peter?", "May I remember you, Peter?"]
+    clock = FakeClock()
+    kept = MemoryKeeper(file, {}, clock, EventBus(clock)).memory.named("peter")
+    assert [one.heard for one in kept] == [("P", "IY", "T", "ER")]
+
+
+def test_of_a_stranger_nothing_is_kept():
+    visit = typed(12, {1.0: "i like jazz", 5.0: "what do you know about me"})
+    assert "jazz" not in said(visit)
+
+
+class DayLater(FakeClock):
+    """The next day, and half an hour."""
+
+    def wall(self):
+        return super().wall() + timedelta(days=1, minutes=30)
+
+
+def day(file, lines, seconds, clock=None):
+    """A visit of a robot that keeps its memory of people in a file."""
+
+    def keep(robot):
+        robot.board.slot(PEOPLE_FILE).set(str(file), 0.0)
+
+    return Visit(seconds, {}, jobs=[typing(lines)], prepare=keep, clock=clock)
+
+
+def test_who_comes_back_the_next_day_is_known_again_and_two_people_are_not_confused(tmp_path):
+    """Of Anna a fact is used; of Ben, who gave no leave, nothing is left."""
+    file = tmp_path / "people.db"
+    anna = {**INTRODUCED, 10.0: "good job", 13.0: "i like jazz"}
+    day(file, {**anna, 18.0: "my name is Ben", 24.0: "no", 30.0: "i like tea"}, 36)
+    again = {1.0: "my name is Anna", 7.0: "yes", 16.0: "what do you know about me"}
+    other = {24.0: "my name is Ben", 30.0: "no", 36.0: "what do you know about me"}
+    second = day(file, {**again, **other}, 42, DayLater())
+
+    words = said(second)
+    assert "Have we met before, Anna?" in words
+    assert (
+        "Hello, Anna! I haven't seen you for a day. You were so nice to me last time."
+        " Did you have time for jazz lately?"
+    ) in words
+    assert "You're Anna. You like jazz." in words
+    assert "Have we met before, Ben?" not in words
+    assert "tea" not in words
+    assert b"Ben" not in file.read_bytes()
