@@ -136,7 +136,7 @@ function fits(n: Network, palette: Palette, sends: SlotUse, takes: SlotUse): Ver
   if (isSlot(from) && isSlot(to)) return refused("both are slots of the board - link a behavior to one");
   const [sent, taken] = [sends.port, takes.port];
   if (!isSlot(from) && !isSlot(to) && areApart(sent.datatype, taken.datatype, ANY)) return refused(`${from} is ${sent.datatype}, but ${to} takes ${taken.datatype} - ${SAME}`);
-  if (n.links.some((one) => one.from === from && one.to === to)) return refused(`the link ${from} -> ${to} is there already`);
+  if (linked(n).has(`${from} ${to}`)) return refused(`the link ${from} -> ${to} is there already`);
   const circle = circleWith(n, from, to);
   if (circle) return refused(`these links would run in a circle: ${circle.join(", ")}`);
   if (isSlot(from)) return fitsSlot(n, palette, from, takes);
@@ -177,6 +177,15 @@ function portNamed(n: Network, palette: Palette, text: string, side: keyof Ports
   const found = portsOf(n, palette, id)[side].find((one) => `${id}.${one.name}` === text);
   if (found) return found;
   return behaviorKind(palette, type) ? `${type} "${id}" has no ${side.slice(0, -1)} "${text.slice(id.length + 1)}"` : unknown(text.slice(id.length + 1));
+}
+
+const pairs = new WeakMap<Network, Set<string>>();
+
+/** The links that there are, each as its two ends. */
+function linked(n: Network): Set<string> {
+  let found = pairs.get(n);
+  if (found === undefined) pairs.set(n, (found = new Set(n.links.map((one) => `${one.from} ${one.to}`))));
+  return found;
 }
 
 /** The links of a circle that one more would close; a slot of the board closes none. */

@@ -165,15 +165,25 @@ function openingTag(text: string, from: number, parent: Element | null): Element
 function decode(raw: string, text: string, offset: number): string {
   const spaced = raw.replace(/\r\n?|[\t\n]/g, " ");
   if (!raw.includes("&")) return spaced;
-  return spaced.replace(/&([^;&\s]*;?)/g, (whole: string, name: string, at: number) => {
-    const number = /^#(?:x([0-9a-fA-F]{1,6})|(\d{1,7}));$/.exec(name);
-    const code = number ? (number[1] ? parseInt(number[1], 16) : Number(number[2])) : NaN;
-    const letter = code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) ? String.fromCodePoint(code) : "\0";
-    if (!Number.isNaN(code) && !FORBIDDEN.test(letter)) return letter;
-    const known = name.endsWith(";") ? ENTITIES[name.slice(0, -1)] : undefined;
-    if (known === undefined) throw new XmlError(`"${whole}" is not a character of XML - write &amp; for &`, text, offset + at);
-    return known;
-  });
+  let decoded = "";
+  let from = 0;
+  // One at a time: `replace` would find all of a megabyte before it asks for the first.
+  for (const { 0: whole, 1: name = "", index } of spaced.matchAll(/&([^;&\s]*;?)/g)) {
+    const letter = character(name);
+    if (letter === undefined) throw new XmlError(`"${whole}" is not a character of XML - write &amp; for &`, text, offset + index);
+    decoded += spaced.slice(from, index) + letter;
+    from = index + whole.length;
+  }
+  return decoded + spaced.slice(from);
+}
+
+/** What a reference stands for, given without its "&"; undefined where XML does not allow it. */
+function character(name: string): string | undefined {
+  const number = /^#(?:x([0-9a-fA-F]{1,6})|(\d{1,7}));$/.exec(name);
+  if (number === null) return name.endsWith(";") ? ENTITIES[name.slice(0, -1)] : undefined;
+  const code = number[1] ? parseInt(number[1], 16) : Number(number[2]);
+  const letter = code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) ? String.fromCodePoint(code) : "\0";
+  return FORBIDDEN.test(letter) ? undefined : letter;
 }
 
 export function attribute(element: Element, name: string): string | undefined {
