@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import gc
-import json
+import marshal
 import sys
 from collections.abc import Mapping
 from itertools import accumulate
@@ -15,11 +15,11 @@ from hibari import g2p
 
 
 class Packed:
-    """A dictionary of JSON values, packed into two blocks of bytes."""
+    """A dictionary of JSON values, packed into two blocks of bytes; `marshal` is the fastest."""
 
     def __init__(self, entries: Mapping[str, Any]) -> None:
         keys = sorted(entries)
-        values = [_encoded(entries[key]).encode() for key in keys]
+        values = [marshal.dumps(entries[key]) for key in keys]
         self._keys = np.array([key.encode() for key in keys])
         self._values = b"".join(values)
         self._ends = np.fromiter(accumulate(map(len, values), initial=0), np.uint32)
@@ -31,10 +31,7 @@ class Packed:
         if place == len(self._keys) or self._keys[place] != wanted:
             return None
         begin, end = self._ends[place : place + 2]
-        return json.loads(self._values[begin:end])
-
-
-_encoded = json.JSONEncoder(ensure_ascii=False).encode
+        return marshal.loads(self._values[begin:end])
 
 
 class Pronouncer(g2p.G2P):  # type: ignore[misc]
