@@ -9,7 +9,8 @@ introduce, know_me, know_about_me, forget_that, forget_me   actions of replies
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from datetime import timedelta
 from typing import Any, Literal
 
@@ -20,15 +21,18 @@ from hri.conversation import (
     Meeting,
     MemoryFull,
     MemoryKeeper,
+    Question,
     as_name,
     fact_of,
     file_of_run,
     load_relations,
+    part_of_day,
     remembered_by,
+    source_of,
 )
-from hri.core import HeardSlot, Latest
+from hri.core import HeardSlot, Latest, Utterance
 from hri.robot import App, verbs
-from hri.speech import Listener
+from hri.speech import Listener, both_sayings, parse, without
 from hri.task import TaskContext, immediate
 from hri.vision import people_of
 
@@ -51,8 +55,10 @@ LAST_TIME: Mapping[str, str] = {
 """By stimulus: what it says of it at the next meeting, a key of [unasked]."""
 SAME_TALK = timedelta(hours=2)
 """How long before someone left a thing may have happened that is spoken of at the next meeting."""
-READ_BACK = 2
-"""Names that are read back: the one that was heard, and the next best."""
+READ_BACK = 3
+"""Names that are read back: the first one heard, the likeliest of both sayings, the next best."""
+NAMING = "my_name_is"
+"""The rule by which people give their name."""
 
 
 class Acquaintance:
@@ -159,24 +165,79 @@ async def acquaint(context: TaskContext) -> None:
             known.keeper.poll(context.clock.now())
             meeting = known.look()
             if meeting is not None and meeting.away is not None and not companion.is_asleep:
-                companion.say(greeting(companion, known, meeting))
+                if companion.lessons.is_busy:
+                    companion.say(greeting(companion, meeting))
+                else:
+                    companion.lessons.start(_greet, companion, meeting)
     finally:
         known.keeper.close()
 
 
-def greeting(companion: Companion, known: Acquaintance, meeting: Meeting) -> str:
-    """A greeting of someone it knows, by how long they were away, with a question about a fact."""
-    key = "met_again" if (meeting.away or timedelta()) < LONG_AWAY else "met_after_days"
-    days = (meeting.away or timedelta()).days
-    words = companion.words(key, person=meeting.person.name, days=_days(days))
+async def _greet(context: TaskContext, companion: Companion, meeting: Meeting) -> None:
+    """Greet someone it knows, and ask one thing."""
+    known, id = Acquaintance.of(context), meeting.person.id
+    questions = known.memory.questions(id)
+    words = greeting(companion, meeting)
+    if not questions:
+        await verbs.say(context, words)
+    else:
+        await _ask_about(context, companion, known, id, questions[0], words)
+
+
+def greeting(companion: Companion, meeting: Meeting) -> str:
+    """A greeting of someone it knows, by the hour and by how long they were away."""
+    away, hour = meeting.away or timedelta(), part_of_day(companion.context.clock.wall().hour)
+    key = "met_again" if away < LONG_AWAY else "met_after_days"
+    hello = companion.words(f"hello_{hour}" if away >= MEETING_GAP else "hello_again")
+    words = companion.words(key, hello=hello, person=meeting.person.name, days=_days(away.days))
     if meeting.away is not None and (last := _last_time(meeting)):
         words = f"{words} {companion.words(last)}"
-    questions = known.memory.questions(meeting.person.id)
-    first = next((one for one in questions if one.kind == "follow_up"), None)
-    if first is None:
-        return words
-    known.memory.note_asked(meeting.person.id, first.relation, first.value, first.text)
-    return f"{words} {first.text}"
+    return words
+
+
+async def _ask_about(
+    context: TaskContext,
+    companion: Companion,
+    known: Acquaintance,
+    id: int,
+    question: Question,
+    words: str = "",
+) -> None:
+    """Say words and ask a question about someone who is known; a fact that they tell is kept."""
+    asked = f"{words} {question.text}".strip()
+    known.memory.note_asked(id, question.relation, question.value, question.text)
+    if question.kind == "ask_for":
+        told = await _told(context, companion, known, question.relation, asked)
+        if told is not None:
+            known.note(told.rule, told.tags)
+            companion.reply(told.rule, told.command or told.text, dict(told.tags))
+        return
+    answer = await verbs.ask(context, asked)
+    if answer is None or known.memory.person(id) is None:
+        return
+    if question.kind == "ask" and not answer:
+        known.memory.unlearn(id, question.relation, question.value)
+    await verbs.say(context, companion.words("is_so" if answer else "is_not_so"))
+
+
+async def _told(
+    context: TaskContext, companion: Companion, known: Acquaintance, relation: str, question: str
+) -> Utterance | None:
+    """What someone says when they are asked for a fact; None without an answer.
+
+    A free slot takes any words: those of another sentence are answered as that one.
+    """
+    grammar = companion.listener.loaded_grammar
+    source = source_of(relation, grammar, known.relations)
+    answer = await verbs.ask_value(context, *source, question=question) if source else None
+    if answer is None or source is None:
+        return None
+    other = parse(grammar, answer.text)
+    if other is None or other.rule == source[0]:
+        return replace(answer, rule=source[0])
+    known.note(other.rule, other.tags)
+    companion.reply(other.rule, other.text, dict(other.tags))
+    return None
 
 
 def _last_time(meeting: Meeting) -> str:
@@ -220,14 +281,17 @@ async def _introduce(
     if talker is not None and talker.name == name:
         await verbs.say(context, companion.words("name_known", person=name))
         return
-    if len(same) == 1 and await _is_same(context, companion, name):
-        known.is_called(same[0])
-        await verbs.say(context, greeting(companion, known, known.memory.meet(same[0].id, wall)))
+    if (person := await _who_of(context, companion, known, same, name)) is not None:
+        known.is_called(person)
+        await _greet(context, companion, known.memory.meet(person.id, wall))
         return
     person = known.memory.introduce(name, wall, heard=phones, said=phones)
     known.is_called(person)
     known.teach()
-    await _ask_to_keep(context, companion, known, person)
+    if not await _may_keep(context, companion, known, person):
+        return
+    if questions := known.memory.questions(person.id):
+        await _ask_about(context, companion, known, person.id, questions[0])
 
 
 async def _after_the_reply(context: TaskContext, companion: Companion) -> None:
@@ -240,33 +304,75 @@ async def _after_the_reply(context: TaskContext, companion: Companion) -> None:
 async def _read_back(
     context: TaskContext, companion: Companion, heard: HeardSlot
 ) -> tuple[str, tuple[str, ...]]:
-    """The name that was said, and its phones; empty when none was right, or nobody answered."""
-    texts, sounds = (heard.text, *heard.others), (heard.phones, *heard.others_phones)
-    for text, phones in zip(texts[:READ_BACK], sounds, strict=False):
-        name = as_name(text)
-        companion.voice.pronounce(name, phones)
+    """The name that was said, and its phones; empty when none was right, or nobody answered.
+
+    After the first no the name is asked for once more, and both sayings count together.
+    """
+    refused: list[HeardSlot] = []
+    for number in range(READ_BACK):
+        name = as_name(heard.text)
+        companion.voice.pronounce(name, heard.phones)
         answer = await verbs.ask(context, f"{name}?")
         if answer is None:
             return "", ()
         if answer:
-            return name, phones
+            return name, heard.phones
+        refused.append(heard)
+        if number == 0:
+            again = await _name_again(context, companion)
+            if again is None or not again.phones:  # what was typed has none, and is taken as it is
+                return ("", ()) if again is None else (as_name(again.text), ())
+            heard = both_sayings(heard, again)
+        rest = without(heard, refused)
+        if rest is None:
+            break
+        heard = rest
     await verbs.say(context, companion.words("name_unclear"))
     return "", ()
 
 
-async def _is_same(context: TaskContext, companion: Companion, name: str) -> bool:
-    """Whether it has met this person; without an answer it is taken for a stranger."""
-    return bool(await verbs.ask(context, companion.words("have_we_met", person=name)))
+async def _name_again(context: TaskContext, companion: Companion) -> HeardSlot | None:
+    """The name as it is said once more; None without an answer."""
+    question = companion.words("name_again")
+    answer = await verbs.ask_value(context, NAMING, "name", question=question)
+    return next((slot for slot in answer.slots if slot.name == "name"), None) if answer else None
 
 
-async def _ask_to_keep(
+async def _who_of(
+    context: TaskContext,
+    companion: Companion,
+    known: Acquaintance,
+    same: Sequence[KnownPerson],
+    name: str,
+) -> KnownPerson | None:
+    """Who of those with this name talks; None for a stranger, and where it cannot be known.
+
+    Of several it asks for what each of them told, and no two the same: it says nothing of anyone.
+    """
+    if not same or not await verbs.ask(context, companion.words("have_we_met", person=name)):
+        return None
+    if len(same) == 1:
+        return same[0]
+    relation = known.memory.apart(same)
+    if not relation:
+        return None
+    question = companion.words("which_of_them", person=name)
+    asked = f"{question} {known.relations[relation].ask_for[0]}"
+    told = await _told(context, companion, known, relation, asked)
+    value = fact_of(relation, told.tags, context.clock.wall().date())[0] if told else ""
+    found = known.memory.those_with(same, relation, value) if value else ()
+    return found[0] if len(found) == 1 else None
+
+
+async def _may_keep(
     context: TaskContext, companion: Companion, known: Acquaintance, person: KnownPerson
-) -> None:
+) -> bool:
     """Ask aloud whether it may remember a person; a word or a nod gives leave."""
     with context.queue("question.answered") as answered:
         may = await verbs.ask(context, companion.words("may_remember", person=person.name))
         event = await answered.get() if may is not None else None
-    if may and known.memory.person(person.id) is not None:
+    may = may is True and known.memory.person(person.id) is not None
+    if may:
         how: Literal["word", "nod"] = (
             "nod" if event and event.properties["by"] == "head" else "word"
         )
@@ -274,9 +380,10 @@ async def _ask_to_keep(
             known.memory.allow(person.id, context.clock.wall(), how)
         except MemoryFull:
             await verbs.say(context, companion.words("memory_full"))
-            return
+            return False
     key = "will_remember" if may else "will_not_remember"
     await verbs.say(context, companion.words(key, person=person.name))
+    return may
 
 
 @immediate

@@ -4,8 +4,10 @@
 
 A name is right when what the robot would say sounds like it: a listed one as its text, or as
 another text of the same phones; one that is nowhere listed but for one phone at most, for which
-another of the same kind is heard (ALIKE). After one "no" the next best is read back. Then ten names
-each are remembered with the phones of the first saying, and the second is to be found among them.
+another of the same kind is heard (ALIKE). As the companion does it: after a "no" the name is said
+again, and what both sayings are likeliest is read back, after another "no" the next best. Then ten
+names each are remembered with the phones that were right, and the second saying is to be found
+among them.
 No number was fitted to these names, but that a second word must cost something was seen on them.
 Those that are listed are among the names that the spelling and the order of phones are learned
 from.
@@ -34,7 +36,7 @@ from hri.hal.recognizer import Segment
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.synthesizer import Synthesizer
-from hri.speech.grammar import load_grammar
+from hri.speech import both_sayings, load_grammar, without
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.pronunciation.phones import Phones, distance, without_stress
 from hri.speech.recognizers.ctc.decoder import CtcRecognizer
@@ -51,6 +53,7 @@ SLOWER = (1.0, 1.12)
 """The same for flite, which is not told a pitch."""
 ALIKE = 0.5
 """`distance` of two phones up to which one is taken for the other ("AH" and "IH")."""
+READ_BACK = 3
 REMEMBERED = 10
 STRANGERS = 3
 """Of how many names one is said to those who remember ten others."""
@@ -146,16 +149,17 @@ def rows(step: int = 1) -> Iterator[Row]:
         for voice in VOICES:
             kept: list[tuple[Name, HeardSlot, Samples]] = []
             for name in chosen:
+                again_said = talk.said(voice, name, 1)
                 slot = talk.heard(talk.said(voice, name, 0))
-                tries = _read_back(slot)
-                right = [name.is_heard(*one) for one in tries[:2]]
+                tries = _read_back(slot, talk.heard(again_said))
+                right = [name.is_heard(one.text, one.phones) for one in tries]
                 kind = "nowhere listed" if name.phones else "listed"
                 read[f"{kind}, {voice}"].append((any(right[:1]), any(right)))
                 if not any(right[:1]):
-                    heard = [f"{text} {'.'.join(phones)}" for text, phones in tries[:3]]
+                    heard = [f"{one.text} {'.'.join(one.phones)}" for one in tries]
                     print(voice, name.text, *name.phones, "|", *heard, file=sys.stderr)
                 if slot is not None:
-                    kept.append((name, _confirmed(name, slot), talk.said(voice, name, 1)))
+                    kept.append((name, _confirmed(name, tries), again_said))
             random.Random(5).shuffle(kept)
             groups = [kept[at : at + REMEMBERED] for at in range(0, len(kept), REMEMBERED)]
             for number, group in enumerate(groups):
@@ -174,7 +178,7 @@ def rows(step: int = 1) -> Iterator[Row]:
             talk.ears.know("name", {})
     for what, ways in read.items():
         yield share(f"{what}, at once", sum(one for one, _ in ways), len(ways), None)
-        yield share(f"{what}, after one no", sum(two for _, two in ways), len(ways), None)
+        yield share(f"{what}, after the read-back", sum(two for _, two in ways), len(ways), None)
     every = [one for ways in read.values() for one in ways]
     yield share("right at once", sum(one for one, _ in every), len(every), None)
     limit = at_least(LEAST_READ_BACK)
@@ -183,19 +187,21 @@ def rows(step: int = 1) -> Iterator[Row]:
     yield share("another name taken for one of ten", mistaken, strangers, None)
 
 
-def _read_back(slot: HeardSlot | None) -> Sequence[tuple[str, Phones]]:
-    """What the robot says, and next, and so on."""
-    if slot is None:
+def _read_back(first: HeardSlot | None, again: HeardSlot | None) -> list[HeardSlot]:
+    """What the robot says: what it heard, then of both sayings what it has not said."""
+    if first is None:
         return []
-    return [(slot.text, slot.phones), *zip(slot.others, slot.others_phones, strict=True)]
+    tries, rest = [first], without(both_sayings(first, again or first), [first])
+    while rest is not None and len(tries) < READ_BACK:
+        tries.append(rest)
+        rest = without(rest, tries)
+    return tries
 
 
-def _confirmed(name: Name, slot: HeardSlot) -> HeardSlot:
+def _confirmed(name: Name, tries: Sequence[HeardSlot]) -> HeardSlot:
     """What is remembered: what was right, else what was heard first."""
-    for text, phones in _read_back(slot)[:2]:
-        if name.is_heard(text, phones):
-            return HeardSlot(slot.name, text, phones)
-    return slot
+    right = (one for one in tries if name.is_heard(one.text, one.phones))
+    return next(right, tries[0])
 
 
 if __name__ == "__main__":

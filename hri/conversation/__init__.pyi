@@ -66,6 +66,7 @@ from .relations import (
     Relation as Relation,
     load_relations as load_relations,
     remembered_by as remembered_by,
+    source_of as source_of,
 )
 from .sentiment import sentiment_of as sentiment_of
 from .spoken_text import check_text as check_text, fields_of as fields_of

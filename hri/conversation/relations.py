@@ -17,10 +17,11 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from hri.conversation.facts import LONGEST_TEXT
+from hri.conversation.facts import LONGEST_TEXT, WORDS
 from hri.conversation.spoken_text import check_text, fields_of
 from hri.core.errors import AuthoringError, Mistakes, did_you_mean
 from hri.core.toml import Table, load_toml
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.rules import Rule
 
 FILE = "memory.toml"
@@ -134,3 +135,18 @@ def remembered_by(
                 raise AuthoringError(rule.place(tag.span), what, remedy)
             found[key] = name
     return found
+
+
+def source_of(
+    relation: str, grammar: Grammar, relations: Mapping[str, Relation] | Iterable[str]
+) -> tuple[str, str] | None:
+    """The public rule that gives a fact of a relation, and the tag with its words; None without
+    such a rule, or when several tags could have them. Raises AuthoringError as `remembered_by`.
+    """
+    for rule, name in remembered_by(grammar.rules, relations).items():
+        tags = grammar.tag_names(rule)
+        named = [tag for tag in (WORDS, relation) if tag in tags]
+        told = named or ([*tags] if len(tags) == 1 else [])
+        if name == relation and rule in grammar.public_rules and told:
+            return rule, told[0]
+    return None

@@ -62,6 +62,8 @@ class HeardSlot:
     """What else it may have been, likeliest first; each sounds otherwise."""
     others_phones: tuple[tuple[str, ...], ...] = ()
     """The phones of each of them."""
+    scores: tuple[float, ...] = ()
+    """Natural log: how well the text and each of the others fits the sound."""
 
 
 @dataclass(frozen=True, slots=True)

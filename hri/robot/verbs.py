@@ -158,14 +158,14 @@ async def ask(
 
 
 async def ask_value(
-    context: TaskContext, rule: str, tag: str, timeout: float = 6.0
+    context: TaskContext, rule: str, tag: str, timeout: float = 6.0, question: str = ""
 ) -> Utterance | None:
-    """Ask for one value of a command in force, "Which size?"; the answer with its tags, or None.
+    """Ask for one value of a command in force; the answer with its tags, or None.
 
-    Meanwhile the grammar is what gives that tag of the rule its value (`values_of`), also among
-    other words; else as `ask`.
+    Without a `question` it asks by the name of the tag, "Which size?". Meanwhile the grammar is
+    what gives that tag of the rule its value (`values_of`), also among other words; else as `ask`.
     """
-    asked = f"Which {_in_words(tag)}?"
+    asked = question or f"Which {_in_words(tag)}?"
 
     def prepared(grammar: Grammar) -> Grammar:
         return answering(values_of(grammar, rule, tag))
@@ -206,7 +206,6 @@ async def _ask(
     """
     asked, left = question, retries
     while left >= 0:
-        await say(context, asked)
         found = await _first_answer(context, asked, timeout, left, answer_of)
         if found is None:
             left -= 1
@@ -232,14 +231,18 @@ async def _first_answer(
     left: int,
     answer_of: Callable[[TaskContext, Event], tuple[T | None] | _Refusal | _Again | None],
 ) -> tuple[Event, tuple[T | None] | _Refusal | _Again] | None:
-    """The first event that answers what was asked, and its answer; None when none does in time.
+    """Ask; the first event that answers, and its answer; None when none does in time.
 
-    `left` is how many retries are left for what is to be asked again.
+    `left` is how many retries are left for what is to be asked again. Where the question has a
+    grammar, an answer to a question that is not over yet counts.
     """
     slot = context.board.slot(QUESTION)
-    slot.set(True, context.clock.now())
+    early = ("speech.heard",) if isinstance(answer_of, _HeardAnswer) else ()
     try:
         with context.queue(*ANSWERING) as queue:
+            await say(context, asked)
+            queue.keep(*early)
+            slot.set(True, context.clock.now())
             context.events.raise_event("question.asked", text=asked)
             end = context.clock.now() + timeout
             while (event := await next_heard(context, queue, end)) is not None:
@@ -306,7 +309,7 @@ class _HeardAnswer:
             return _Again(self._asked, self, retries=0)
         if heard.rule not in self._grammar.public_rules:  # it interrupts; it may answer as well
             meant = parse(self._grammar, heard.text)
-            if meant is None:
+            if meant is None or meant.slots:  # a free slot takes the words of anything
                 return (None,)
             heard = replace(heard, rule=meant.rule, tags=meant.tags)
         return (replace(heard, tags={**self._sure, **heard.tags}),)

@@ -15,6 +15,7 @@ from .grammar.sure_tags import sure_tags as sure_tags
 from .grammar.tags import written as written
 from .grammar.words import normalize as normalize
 from .listener import Listener as Listener
+from .sayings import both_sayings as both_sayings, without as without
 from .tasks import hears_people as hears_people, say as say, wait_for_speech as wait_for_speech
 from .turn import QUESTION as QUESTION
 from .vocalizations.in_text import check_sounds as check_sounds

@@ -31,6 +31,8 @@ from hri.speech.understanding import SILENT_AFTER, STEP, Heard, understand
 
 FOLDERS = "app.folders"
 """Slot of the board with the folders of the app and of those that it extends, its own first."""
+MOST_OTHERS = 2
+"""What else a free slot may have been, in an event."""
 MOST_WAITING = 20
 """Pieces of speech that wait for their turn; beyond it the oldest are forgotten."""
 
@@ -414,7 +416,7 @@ class Listener(Behavior):
             layer = self._grammars.in_force
             assert layer is not None
             assert layer.heard is not None
-            reading = self._reading(segment, layer.heard, turn)
+            reading = self._reading(segment, layer, turn)
             if layer is self._grammars.in_force:
                 break  # else another grammar came meanwhile, and the words may be of either
         grammar = layer.heard
@@ -435,11 +437,22 @@ class Listener(Behavior):
 
         return tell
 
-    def _reading(self, segment: Segment, grammar: Grammar, turn: Turn) -> Reading:
+    def _reading(self, segment: Segment, layer: Layer, turn: Turn) -> Reading:
+        """What a piece says; a typed line that the grammar of a question does not allow may be a
+        sentence of those below.
+        """
+        assert layer.heard is not None
         if not segment.text:
-            return self._turns.end(segment, grammar, self.strictness, turn)
-        line = LineDecoder(grammar)
-        return Reading((understand(line, grammar, segment, self.strictness, turn),))
+            return self._turns.end(segment, layer.heard, self.strictness, turn)
+        below = (one.heard for one in reversed(layer.below) if one.heard is not None)
+        read = (
+            understand(LineDecoder(grammar), grammar, segment, self.strictness, turn)
+            for grammar in (layer.heard, *below)
+        )
+        first = next(read)
+        if isinstance(first, Utterance):
+            return Reading((first,))
+        return Reading((next((one for one in read if isinstance(one, Utterance)), first),))
 
     def _advance(self, segment: Segment, piece: _Piece, grammar: Grammar, begun: float) -> None:
         """Let the engine work on an open piece when there is enough new of it."""
@@ -571,7 +584,11 @@ class Listener(Behavior):
 def _spoken(slots: Iterable[HeardSlot]) -> dict[str, dict[str, object]]:
     """How the words of free slots were heard, by the names of the slots."""
     return {
-        slot.name: {"text": slot.text, "phones": list(slot.phones), "others": list(slot.others)}
+        slot.name: {
+            "text": slot.text,
+            "phones": list(slot.phones),
+            "others": list(slot.others[:MOST_OTHERS]),
+        }
         for slot in slots
     }
 

@@ -69,6 +69,45 @@ def test_a_spoken_name_is_read_back_and_kept_as_it_was_heard(tmp_path):
     assert [one.heard for one in kept] == [("P", "IY", "T", "ER")]
 
 
+def test_a_name_that_was_wrong_is_asked_for_again():
+    lines = {2.0: "my name is zorvin", 9.0: "no", 15.5: "zorvin", 22.0: "no"}
+    visit = Visit(27, lines, devices=SEEING)
+    asked = [event.properties["text"] for event in visit.named("question.asked")]
+    assert asked[1] == "Sorry. What's your name again?"
+    read_back = [asked[0], *asked[2:]]
+    assert len(read_back) == 3
+    assert len({*read_back}) == 3, "what was refused is not said again"
+
+
+def test_it_asks_one_thing_of_who_may_be_remembered():
+    visit = typed(40, {**INTRODUCED, 11.0: "jazz", 17.0: "what do you know about me"})
+    assert [text for text in visit.said() if text == "What do you like?"] == ["What do you like?"]
+    assert "You're Anna. You like jazz." in visit.said()
+
+
+def test_another_sentence_does_not_answer_its_question():
+    visit = typed(
+        30, {**INTRODUCED, 11.0: "who am i", 16.0: "my name is Ben", 24.0: "yes", 28.0: "hello"}
+    )
+    assert "You're Anna." in visit.said()
+    assert visit.said()[-1] == "Hello, Ben!"
+
+
+def test_two_people_of_one_name_are_known_by_what_each_of_them_told(tmp_path):
+    file = tmp_path / "people.db"
+    day(file, {**INTRODUCED, 11.0: "jazz"}, 15)
+    other = {1.0: "my name is Anna", 7.0: "no", 12.0: "yes", 17.0: "gardening"}
+    day(file, other, 21)
+    third = day(
+        file,
+        {1.0: "my name is Anna", 7.0: "yes", 14.0: "gardening", 26.0: "what do you know about me"},
+        32,
+        DayLater(),
+    )
+    assert "I know more than one Anna. What do you like?" in third.said()
+    assert "You're Anna. You like gardening." in third.said()
+
+
 def test_of_a_stranger_nothing_is_kept():
     visit = typed(12, {1.0: "i like jazz", 5.0: "what do you know about me"})
     assert "jazz" not in said(visit)
@@ -102,7 +141,7 @@ def test_who_comes_back_the_next_day_is_known_again_and_two_people_are_not_confu
     words = said(second)
     assert "Have we met before, Anna?" in words
     assert (
-        "Hello, Anna! I haven't seen you for a day. You were so nice to me last time."
+        "Good morning, Anna! I haven't seen you for a day. You were so nice to me last time."
         " Did you have time for jazz lately?"
     ) in words
     assert "You're Anna. You like jazz." in words

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from hri.conversation.relations import Relation, load_relations, remembered_by
+from hri.conversation.relations import Relation, load_relations, remembered_by, source_of
 from hri.core.errors import AuthoringError, HriError
 from hri.speech.grammar import load_grammar
 
@@ -104,3 +104,22 @@ def test_a_mark_of_no_relation_is_told_with_its_place(tmp_path: Path, mark: str,
     grammar = load_grammar(a_grammar(tmp_path, mark))
     with pytest.raises(AuthoringError, match=told):
         remembered_by(grammar.rules, relations)
+
+
+def test_the_rule_that_gives_a_fact_is_found_with_its_tag(tmp_path: Path) -> None:
+    file = tmp_path / "g.jsgf"
+    rules = """
+/** @remember likes */
+public <likes> = i like <likes.spoken 1-3> [a lot {degree=high}];
+/** @remember birthday */
+public <birthday> = my birthday is on may third {day="May third"};
+/** @remember home */
+public <home> = i live in ohio {state=Ohio} usa {country=USA};
+"""
+    file.write_text(f"#JSGF V1.0;\ngrammar g;\n{rules}")
+    grammar = load_grammar(file)
+    relations = ("likes", "birthday", "home", "cat")
+    assert source_of("likes", grammar, relations) == ("likes", "likes")
+    assert source_of("birthday", grammar, relations) == ("birthday", "day")
+    assert source_of("home", grammar, relations) is None, "either tag may be the words"
+    assert source_of("cat", grammar, relations) is None

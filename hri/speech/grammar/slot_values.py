@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     RuleReference,
     Tagged,
@@ -22,10 +23,13 @@ def values_of(grammar: Grammar, rule: str, tag: str) -> Grammar:
     """The grammar with a single command, VALUE: what gives a tag of a rule its value, by itself.
 
     Its sentences have the tags that they have within the rule. The grammar has no command where
-    nothing in the rule gives that tag.
+    nothing in the rule gives that tag. Around a free slot the words of the rule may be said again:
+    "jazz", and "i like jazz".
     """
     own = grammar.rules[rule]
     found = tuple(_givers(grammar, own.expression, tag))
+    if any(isinstance(one, Anything) for one in found):
+        found = (own.expression, *found[:1])
     choice = Alternative(found, (1.0,) * len(found), own.expression.span)
     rules = {key: replace(one, is_public=False) for key, one in grammar.rules.items()}
     marks = tuple(one for one in own.doc_tags if one.name in ("spoken", "careful"))
@@ -38,6 +42,8 @@ def _givers(grammar: Grammar, node: Expression, tag: str) -> Iterator[Expression
     """The smallest parts of an expression that give a tag its value by themselves."""
     match node:
         case Tagged(entries=entries) if any(entry.name == tag for entry in entries):
+            yield node
+        case Anything(slot=slot) if slot == tag:
             yield node
         case RuleReference(name=name) if name in grammar.rules:
             if tag in grammar.tag_names(name):

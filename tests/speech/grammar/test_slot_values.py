@@ -42,3 +42,12 @@ def test_each_value_is_one_that_the_command_may_have(grammar, data):
     text = data.draw(st.sampled_from([*values.sentences(20)]))
     allowed = {parse(grammar, one).tags.get(tag) for one in grammar.sentences_of("order", 200)}
     assert parse(values, text).tags[tag] in allowed
+
+
+def test_the_value_of_a_free_slot_is_said_by_itself_or_with_its_words(tmp_path):
+    path = tmp_path / "call.jsgf"
+    rules = "public <call> = call me <name.spoken 1-2>; public <stop> = stop;"
+    path.write_text(f"#JSGF V1.0;\ngrammar call;\n{rules}", encoding="utf-8")
+    names = values_of(load_grammar(path), "call", "name")
+    assert parse(names, "zorvin").tags == {"name": "zorvin"}
+    assert parse(names, "call me zorvin").tags == {"name": "zorvin"}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from difflib import SequenceMatcher
 from functools import partial
 
 import numpy as np
@@ -20,7 +22,10 @@ from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.turn import Turn
 from tests.speech.conftest import HOUSE
 
-COMMANDS = ("go forward ten meters", "turn right", "show me a happy face", "what is your name")
+GRAMMAR = HOUSE / "benchmarks" / "speech" / "house.jsgf"
+COMMANDS = re.findall(r"@example (.+)", GRAMMAR.read_text(encoding="utf-8"))
+LEAST_RIGHT = 0.9
+"""Of all words; in the plain voice 0.94 are, since "Anna" sounds like "Emma"."""
 RATE = 16000
 QUIET = np.zeros(4800, np.int16)
 
@@ -31,9 +36,9 @@ def ears():
     resources = ResourceManager((), FakeClock())
     recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), resources)
     recognizer.activate()
-    companion = load_grammar(HOUSE / "grammars" / "companion.jsgf")
-    recognizer.start(companion)
-    yield partial(recognizer.decode, rules=Turn().rules(companion))
+    grammar = load_grammar(GRAMMAR)
+    recognizer.start(grammar)
+    yield partial(recognizer.decode, rules=Turn().rules(grammar))
     recognizer.deactivate()
 
 
@@ -49,11 +54,14 @@ def voice():
 def test_what_is_said_with_an_emotion_is_recognized(voice, ears, name):
     state = EmotionState(name, 1.0, 0.0, 0.0, 0.0, {name: 1.0})
     prosody = load_display().prosody(state)
-    heard = []
+    right = 0
     for command in COMMANDS:
         speech = voice.synthesize(command, prosody)
         sound = 0.4 * resample(speech.samples, speech.rate, RATE)
         samples = np.concatenate([QUIET, sound.astype(np.int16), QUIET])
-        heard.append(ears(Segment(0.0, len(samples) / RATE, samples)).text)
+        heard = ears(Segment(0.0, len(samples) / RATE, samples)).text
+        same = SequenceMatcher(None, command.split(), heard.split()).get_matching_blocks()
+        right += sum(block.size for block in same)
 
-    assert heard == list(COMMANDS)
+    assert len(COMMANDS) >= 15
+    assert right >= LEAST_RIGHT * sum(len(command.split()) for command in COMMANDS)

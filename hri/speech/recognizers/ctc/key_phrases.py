@@ -51,11 +51,12 @@ def said_beside(
     rules: Collection[str] | None,
     noise: float,
 ) -> Iterator[Alternative]:
-    """Phrases that the free words of the best path hold, of as many words as its own at least.
+    """Phrases that the free words of the best path hold, of as many listed words as its own at
+    least, and of one.
 
     `search` is used for it.
     """
-    least = _listed_words(best)
+    least = max(1, _listed_words(best))
     for word, span in zip(best.words, best.spans, strict=True):
         if free_words(word) is None:
             continue

@@ -34,6 +34,7 @@ from hri.speech.recognizers.ctc.known_words import (
 )
 from hri.speech.recognizers.ctc.lattice import Path
 from hri.speech.recognizers.ctc.phone_graph import Floats, Pronouncing
+from hri.speech.sayings import chance
 
 Doubles = NDArray[np.float64]
 
@@ -43,15 +44,14 @@ NEXT_WORD = -4.0
 """Natural log: what a word more costs: one name of no list may sound like two short words."""
 MOST_LOOKED_AT = 6
 """Candidates of a kind."""
-MOST_OTHERS = 2
+MOST_OTHERS = 9
+"""What else a slot may have been."""
 MOST_CONTINUED = 2
 """Words behind which others are looked for."""
 PEAK_PRICE = 1.5
 """Natural log: what each phone to come costs at least, in the choice of those words."""
 SPELLED = 3
 """Spellings that are tried where the author limits them."""
-SHARPNESS = 0.5
-"""By which differences of the scores count for how sure it is."""
 Taught = tuple[tuple[str, Phones], ...]
 """What people said in a slot, each text with its phones."""
 MOST_KEPT = 8
@@ -166,16 +166,15 @@ class SpokenWords:
         found = _spelled(candidates(sound, known, slot.least, slot.most), limits)
         if not found:
             return None
-        scored = np.array([one.score for one in found])
-        odds = np.exp(SHARPNESS * (scored - scored[0]))
         best, others = found[0], found[1 : 1 + MOST_OTHERS]
         return HeardSlot(
             slot.name,
             best.text,
             best.phones,
-            round(float(1.0 / odds.sum()), 3),
+            chance([one.score for one in found]),
             tuple(one.text for one in others),
             tuple(one.phones for one in others),
+            tuple(round(one.score, 2) for one in (best, *others)),
         )
 
     def _beside(self, path: Path, beside: int, place: int) -> tuple[int, Sequence[Sequence[str]]]:
