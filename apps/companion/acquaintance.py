@@ -88,6 +88,11 @@ class Acquaintance:
         id = self._known.get(people_of(self._context).attended)
         return None if id is None else self.memory.person(id)
 
+    def names(self) -> dict[str, str]:
+        """The names of those who are there and may be remembered, by the ids of who is seen."""
+        found = {id: self.memory.person(number) for id, number in self._known.items()}
+        return {id: one.name for id, one in found.items() if one is not None and one.consent}
+
     def present(self) -> list[KnownPerson]:
         """Everyone whom it knows and who is there."""
         found = (self.memory.person(id) for id in self._known.values())
@@ -143,6 +148,8 @@ class Acquaintance:
             self.memory.feel(person.id, companion.emotion.feeling().label, reply.feel, wall)
         if not value:
             return
+        if self.relations[relation].is_name:
+            value = as_name(value)
         try:
             self.memory.learn(person.id, relation, value, wall, values)
         except MemoryFull:
@@ -164,6 +171,7 @@ async def acquaint(context: TaskContext) -> None:
             await context.clock.sleep(LOOK_EVERY)
             known.keeper.poll(context.clock.now())
             meeting = known.look()
+            companion.emotion.know(known.names())
             if meeting is not None and meeting.away is not None and not companion.is_asleep:
                 if companion.lessons.is_busy:
                     companion.say(greeting(companion, meeting))
@@ -176,12 +184,21 @@ async def acquaint(context: TaskContext) -> None:
 async def _greet(context: TaskContext, companion: Companion, meeting: Meeting) -> None:
     """Greet someone it knows, and ask one thing."""
     known, id = Acquaintance.of(context), meeting.person.id
-    questions = known.memory.questions(id)
+    question = _next_question(companion, known, id)
     words = greeting(companion, meeting)
-    if not questions:
+    if question is None:
         await verbs.say(context, words)
     else:
-        await _ask_about(context, companion, known, id, questions[0], words)
+        await _ask_about(context, companion, known, id, question, words)
+
+
+def _next_question(companion: Companion, known: Acquaintance, id: int) -> Question | None:
+    """What it asks someone now; it asks for no fact that no rule of its grammar gives."""
+    grammar = companion.listener.loaded_grammar
+    for question in known.memory.questions(id):
+        if question.kind != "ask_for" or source_of(question.relation, grammar, known.relations):
+            return question
+    return None
 
 
 def greeting(companion: Companion, meeting: Meeting) -> str:
@@ -290,8 +307,8 @@ async def _introduce(
     known.teach()
     if not await _may_keep(context, companion, known, person):
         return
-    if questions := known.memory.questions(person.id):
-        await _ask_about(context, companion, known, person.id, questions[0])
+    if (question := _next_question(companion, known, person.id)) is not None:
+        await _ask_about(context, companion, known, person.id, question)
 
 
 async def _after_the_reply(context: TaskContext, companion: Companion) -> None:
@@ -320,8 +337,10 @@ async def _read_back(
         refused.append(heard)
         if number == 0:
             again = await _name_again(context, companion)
-            if again is None or not again.phones:  # what was typed has none, and is taken as it is
-                return ("", ()) if again is None else (as_name(again.text), ())
+            if again is None:
+                return "", ()
+            if not again.phones:  # what was typed has none, and is taken as it is
+                return as_name(again.text), ()
             heard = both_sayings(heard, again)
         rest = without(heard, refused)
         if rest is None:
@@ -335,7 +354,10 @@ async def _name_again(context: TaskContext, companion: Companion) -> HeardSlot |
     """The name as it is said once more; None without an answer."""
     question = companion.words("name_again")
     answer = await verbs.ask_value(context, NAMING, "name", question=question)
-    return next((slot for slot in answer.slots if slot.name == "name"), None) if answer else None
+    if answer is None:
+        return None
+    typed = HeardSlot("name", str(answer.tags["name"]))
+    return next((slot for slot in answer.slots if slot.name == "name"), typed)
 
 
 async def _who_of(
@@ -435,5 +457,6 @@ async def _forget(context: TaskContext, companion: Companion, person: KnownPerso
         if known.memory.person(person.id) is not None:
             known.memory.forget(person.id)
             known.teach()
+            companion.emotion.forget(person.name)
             companion.voice.pronounce(person.name, ())
         await verbs.say(context, companion.words("forgot_you"))

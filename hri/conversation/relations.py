@@ -2,6 +2,7 @@
 
     [relation.likes]
     several = true                                  # else a new value replaces the one before
+    is_name = false                                 # whether it is written with capital letters
     tell = "You like {value}."                      # to "what do you know about me"
     ask = "Do you like {value}?"                    # whether that is so
     ask_for = "What do you like to do?"             # as long as nothing is known
@@ -49,6 +50,8 @@ class Relation:
     """Questions for a value, as long as there is none."""
     follow_up: tuple[str, ...] = ()
     """Questions that use a value, in a later meeting than that in which it was told."""
+    is_name: bool = False
+    """Whether a value is a name, which begins with capital letters however it was typed."""
 
 
 def load_relations(files: Sequence[Path]) -> dict[str, Relation]:
@@ -88,6 +91,7 @@ def _relation(name: str, entry: Table) -> Relation:
         _texts(entry, "ask", needs_value=True),
         _texts(entry, "ask_for", needs_value=False),
         _texts(entry, "follow_up", needs_value=True),
+        entry.flag("is_name"),
     )
     entry.finish()
     return relation

@@ -90,6 +90,7 @@ class EmotionModel(Behavior):
             self._affect = self._keeper.recall(self._dynamics)
         self._announcer = Announcer(context.events)
         self._involved: set[str] = set()
+        self._said_names: dict[str, str] = {}
         stimuli = self._files.model.stimuli.values()
         self._triggers = Triggers(stimuli, context, self.feel)
 
@@ -144,6 +145,20 @@ class EmotionModel(Behavior):
         now, doer = self._clock.now(), self._name_of(person)
         self._affect = self._dynamics.feel(self._affect, name, intensity, now, doer)
         self._involve(person, doer)
+
+    def know(self, names: Mapping[str, str]) -> None:
+        """Who said their names, by the ids of who is seen: what they did and do is theirs.
+
+        "" is the id of who is not seen. Whoever is left out is known by the id alone from now on.
+        """
+        if fresh := {id: name for id, name in names.items() if id and id not in self._said_names}:
+            self._affect = self._dynamics.rename(self._current(), fresh)
+        self._said_names = dict(names)
+
+    def forget(self, name: str) -> None:
+        """Feel nothing about someone any more; what they did has no author then."""
+        self._said_names = {id: one for id, one in self._said_names.items() if one != name}
+        self._affect = self._dynamics.rename(self._current(), {name: None})
 
     def appraise(self, event: OccEvent) -> None:
         """Something happened just now to a goal, by a deed, or with an object."""
@@ -203,7 +218,8 @@ class EmotionModel(Behavior):
     def _name_of(self, person: str | None) -> str | None:
         """The name of someone who is seen, if it is known; else what they are called already."""
         seen = self._people.person(person) if person else None
-        return name_of(seen.name if seen is not None and seen.name else person)
+        said = None if person is None else self._said_names.get(person)
+        return name_of(said or (seen.name if seen is not None and seen.name else person))
 
     def _current(self) -> Affect:
         return self._dynamics.advance(self._affect, self._clock.now())

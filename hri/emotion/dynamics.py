@@ -170,8 +170,10 @@ class Dynamics:
             raise ValueError(f"the time must be finite, not {now}")
         return affect if now <= affect.time else Affect(now, affect.imprint, affect.outlook)
 
-    def rename(self, affect: Affect, names: Mapping[str, str]) -> Affect:
-        """The same state with people under other names, once it is known who they are."""
+    def rename(self, affect: Affect, names: Mapping[str, str | None]) -> Affect:
+        """The same state with people under other names, once it is known who they are; None is for
+        one who is forgotten.
+        """
         return self.advance(self._affect(renamed(affect.imprint, names)), affect.time)
 
     # What happens.

@@ -6,6 +6,7 @@ from datetime import timedelta
 
 from hri.conversation import PEOPLE_FILE, MemoryKeeper
 from hri.core import EventBus, FakeClock
+from hri.emotion.behaviors import EmotionModel
 from tests.apps.test_companion import SEEING, Visit
 from tests.apps.test_manners import typed, typing
 
@@ -79,6 +80,12 @@ def test_a_name_that_was_wrong_is_asked_for_again():
     assert len({*read_back}) == 3, "what was refused is not said again"
 
 
+def test_a_name_that_was_wrong_may_be_typed():
+    lines = {2.0: "my name is zorvin", 9.0: "no"}
+    visit = Visit(22, lines, jobs=[typing({15.0: "Zorvyn"})], devices=SEEING)
+    assert "May I remember you, Zorvyn?" in visit.said()
+
+
 def test_it_asks_one_thing_of_who_may_be_remembered():
     visit = typed(40, {**INTRODUCED, 11.0: "jazz", 17.0: "what do you know about me"})
     assert [text for text in visit.said() if text == "What do you like?"] == ["What do you like?"]
@@ -91,6 +98,15 @@ def test_another_sentence_does_not_answer_its_question():
     )
     assert "You're Anna." in visit.said()
     assert visit.said()[-1] == "Hello, Ben!"
+
+
+def test_what_it_feels_about_who_may_be_remembered_is_about_them_by_name():
+    visit = typed(
+        30, {**INTRODUCED, 11.0: "never mind", 14.0: "bad robot", 18.0: "why are you sad"}
+    )
+    assert any("you scolded me" in text for text in visit.said())
+    emotion = visit.robot.context.behavior(EmotionModel)
+    assert "Anna" in {cause.person for cause in emotion.why()}
 
 
 def test_two_people_of_one_name_are_known_by_what_each_of_them_told(tmp_path):

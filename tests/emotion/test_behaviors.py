@@ -173,6 +173,28 @@ def test_what_somebody_did_is_theirs_once_their_name_is_known() -> None:
     assert set(shares) == {cause.person for cause in feeling.model.why()}
 
 
+def test_who_says_their_name_is_known_by_it_until_they_go() -> None:
+    feeling = Feeling()
+    feeling.model.feel("praise", person="p1")
+    feeling.model.feel("petted")
+    feeling.model.know({"p1": "Anna", "": "Ben"})
+    feeling.model.feel("praise", person="")
+    assert {cause.person for cause in feeling.model.why()} == {"Anna", "Ben", None}
+    feeling.model.know({"": "Ben"})
+    feeling.model.feel("petted", person="p1")
+    assert {cause.person for cause in feeling.model.why()} == {"Anna", "Ben", "p1", None}
+
+
+def test_who_is_forgotten_is_no_cause_by_name() -> None:
+    feeling = Feeling()
+    feeling.model.know({"p1": "Anna"})
+    feeling.model.feel("praise", person="p1")
+    before = feeling.model.feeling()
+    feeling.model.forget("Anna")
+    assert {cause.person for cause in feeling.model.why()} == {None}
+    assert feeling.model.feeling().emotions == pytest.approx(before.emotions, abs=1e-9)
+
+
 def test_who_asks_about_a_feeling_hears_about_that_one() -> None:
     feeling = Feeling()
     feeling.model.feel("praise")
