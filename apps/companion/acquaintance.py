@@ -457,6 +457,7 @@ async def _forget(context: TaskContext, companion: Companion, person: KnownPerso
         if known.memory.person(person.id) is not None:
             known.memory.forget(person.id)
             known.teach()
-            companion.emotion.forget(person.name)
+            if not known.memory.named(person.name):  # else it feels that about another one, too
+                companion.emotion.forget(person.name)
             companion.voice.pronounce(person.name, ())
         await verbs.say(context, companion.words("forgot_you"))

@@ -79,7 +79,7 @@ def _with_chats(
 
 def mistakes(lines: Sequence[Line]) -> Iterator[str]:
     """Where it confused the two, did not know one, or left out a fact of theirs."""
-    who, told = "", set[str]()
+    who, greeted = "", set[str]()
     for line in lines:
         said = " ".join(words.text for words in line.said)
         who = next((name for name in FACTS if line.say == f"my name is {name.lower()}"), who)
@@ -92,11 +92,11 @@ def mistakes(lines: Sequence[Line]) -> Iterator[str]:
                 if fact not in said:
                     yield f'of {who} it did not know "{fact}"'
         if "haven't seen you" in said:
-            told.add(who)
+            greeted.add(who)
             if f"{who}!" not in said or not any(fact in said for fact in FACTS[who]):
                 yield f"{who} was greeted without their name or a fact: {said}"
-    if lines[0].situation == "the next day" and told != {*FACTS}:
-        yield f"only {sorted(told)} were greeted"
+    if lines[0].situation == "the next day" and greeted != {*FACTS}:
+        yield f"only {sorted(greeted)} were greeted"
 
 
 def known(file: Path) -> tuple[KnownPerson, ...]:
