@@ -281,6 +281,11 @@ def introduce(context: TaskContext, name: str = "") -> None:
     companion.lessons.start(_introduce, companion, name, heard)
 
 
+def take_name(companion: Companion, name: str) -> None:
+    """Learn the name of who talks as it was typed: ask whether it may be kept."""
+    companion.lessons.start(_introduce, companion, name, None)
+
+
 async def _introduce(
     context: TaskContext, companion: Companion, name: str, heard: HeardSlot | None
 ) -> None:
@@ -298,7 +303,11 @@ async def _introduce(
     if talker is not None and talker.name == name:
         await verbs.say(context, companion.words("name_known", person=name))
         return
-    if (person := await _who_of(context, companion, known, same, name)) is not None:
+    have_met = await _have_met(context, companion, same, name)
+    if have_met is None:  # Another person of that name is made only after a no.
+        return
+    person = await _who_of(context, companion, known, same, name) if have_met else None
+    if person is not None:
         known.is_called(person)
         await _greet(context, companion, known.memory.meet(person.id, wall))
         return
@@ -360,6 +369,16 @@ async def _name_again(context: TaskContext, companion: Companion) -> HeardSlot |
     return next((slot for slot in answer.slots if slot.name == "name"), typed)
 
 
+async def _have_met(
+    context: TaskContext, companion: Companion, same: Sequence[KnownPerson], name: str
+) -> bool | None:
+    """Whether who talks is one of those with this name; None without an answer."""
+    if not same:
+        return False
+    answer = await verbs.ask(context, companion.words("have_we_met", person=name))
+    return answer if isinstance(answer, bool) else None
+
+
 async def _who_of(
     context: TaskContext,
     companion: Companion,
@@ -367,12 +386,10 @@ async def _who_of(
     same: Sequence[KnownPerson],
     name: str,
 ) -> KnownPerson | None:
-    """Who of those with this name talks; None for a stranger, and where it cannot be known.
+    """Who of those with this name talks; None where it cannot be known.
 
     Of several it asks for what each of them told, and no two the same: it says nothing of anyone.
     """
-    if not same or not await verbs.ask(context, companion.words("have_we_met", person=name)):
-        return None
     if len(same) == 1:
         return same[0]
     relation = known.memory.apart(same)

@@ -23,6 +23,7 @@ from hri.conversation import (
     echo_of,
     fields_of,
     introduced,
+    introduces_self,
     nearest_sentence,
     sentiment_of,
 )
@@ -40,6 +41,7 @@ from hri.speech import (
 )
 from hri.task import TaskContext
 
+from .acquaintance import take_name
 from .companion import FAREWELLS, TENDER, Companion
 from .replies import Reply
 
@@ -150,6 +152,8 @@ def _tell(companion: Companion, answer: Answer, text: str) -> None:
             companion.last_tender = companion.context.clock.now()
     if answer.kind is Kind.FORBIDDEN:
         companion.halt()  # It may be doing just that.
+    if answer.kind is Kind.INTRODUCED and introduces_self(text):
+        take_name(companion, answer.facts["person"])
     if answer.kind in FELT:
         companion.feel(FELT[answer.kind])
     nearest = as_said(_most_like(companion, text))

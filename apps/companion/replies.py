@@ -148,7 +148,7 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
     "told": ("Mm-hm. Go on, I'm listening.",),
     "noted": ("I see.",),
     "corrected": ("Oh, okay. My mistake.",),
-    "introduced": ("Nice to meet you, {person}. I'm still learning names.",),
+    "introduced": ("Nice to meet you, {person}.",),
     "told_of": ("{echo}? Tell me more.",),
     "told_of_me": ("Good to know. I'm still learning.",),
     "told_sad": ("I'm sorry to hear that.",),

@@ -24,6 +24,7 @@ from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.robot.verbs import SHOWN
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.turn import QUESTION
 from hri.speech.understanding import Heard
 from hri.task.context import TaskContext
 from hri.testing import live_for
@@ -32,6 +33,8 @@ READY = 1.0
 """Seconds after which the companion listens."""
 EVERY = 8.0
 """Seconds from one turn to the next."""
+ANSWER_AFTER = 2.0
+"""Seconds from the end of a question to the next turn, if that is sooner."""
 AFTER_WORDS = 1.0
 """Seconds that a person waits where it still spoke then."""
 PATIENCE = 30.0
@@ -100,10 +103,21 @@ async def _talk(
         seen.turns.append(clock.now())
         with caused_by(KEYBOARD):
             listener.type_line(turn.say, partial(seen.heard.__setitem__, number))
-        await clock.sleep(EVERY)
+        await _let_answer(context)
         await _let_finish(voice, clock)
     seen.turns.append(clock.now())
     robot.finish()
+
+
+async def _let_answer(context: TaskContext) -> None:
+    """Wait as long as people do, or until they would answer a question that has come now."""
+    clock, question = context.clock, context.board.slot(QUESTION)
+    begun = clock.now()
+    while (now := clock.now()) < begun + EVERY:
+        is_open, asked = question.get()
+        if is_open and begun < asked <= now - ANSWER_AFTER:
+            return
+        await clock.sleep(WATCH_EVERY)
 
 
 async def _let_finish(voice: Voice, clock: Clock) -> None:

@@ -8,6 +8,7 @@ the exit status is 1 where there is one. It takes some minutes.
 
 from __future__ import annotations
 
+import argparse
 import random
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -110,7 +111,8 @@ def known(file: Path) -> tuple[KnownPerson, ...]:
 
 
 def main() -> None:
-    """Play, and print."""
+    """Play, and print. Raises SystemExit."""
+    argparse.ArgumentParser(description=__doc__).parse_args()
     with TemporaryDirectory() as folder:
         file = Path(folder) / "people.db"
         found: list[str] = []

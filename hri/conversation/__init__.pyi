@@ -21,7 +21,11 @@ from .examples import (
     sayings as sayings,
 )
 from .facts import Fact as Fact, fact_of as fact_of
-from .first_names import as_name as as_name, introduced as introduced
+from .first_names import (
+    as_name as as_name,
+    introduced as introduced,
+    introduces_self as introduces_self,
+)
 from .floor import (
     GIVES_WAY_SECONDS as GIVES_WAY_SECONDS,
     NEVER as NEVER,

@@ -15,16 +15,16 @@ from hri.speech.grammar.words import normalize
 NAMES = Path(__file__).with_name("first_names.txt")
 _BEGINNING = re.compile(r"(?:^|(?<=-)|(?<=^.'))[^\W\d_]")
 """Letters of a name that are capital."""
-INTRODUCING = (
+OWN = (
     ("i'm",),
     ("i", "am"),
     ("my", "name", "is"),
     ("my", "name's"),
     ("call", "me"),
     ("it's", "me"),
-    ("this", "is"),
-    ("meet",),
 )
+"""What stands before the name of who talks."""
+INTRODUCING = (*OWN, ("this", "is"), ("meet",))
 """What stands before the name of who is introduced."""
 
 
@@ -42,8 +42,12 @@ def introduced(text: str, own: str = "") -> str:
     words = [word for word in normalize(text) if word != own.lower()]
     if len(words) == 1:
         return words[0].capitalize() if words[0] in first_names() else ""
-    names = (name for start in range(len(words)) for name in _behind(words, start))
-    return next(names, "").capitalize()
+    return _named(words, INTRODUCING)
+
+
+def introduces_self(text: str) -> bool:
+    """Whether who talks says by a sentence what they are called."""
+    return bool(_named(normalize(text), OWN))
 
 
 def as_name(text: str) -> str:
@@ -55,10 +59,12 @@ def _capitalized(word: str) -> str:
     return _BEGINNING.sub(lambda letter: letter[0].upper(), word)
 
 
-def _behind(words: Sequence[str], start: int) -> Sequence[str]:
-    """The name behind an introduction that begins with a word, if one does."""
-    for opening in INTRODUCING:
-        end = start + len(opening)
-        if tuple(words[start:end]) == opening and end < len(words):
-            return [word for word in words[end : end + 1] if word in first_names()]
-    return ()
+def _named(words: Sequence[str], openings: Sequence[tuple[str, ...]]) -> str:
+    """The first name behind one of these openings; empty without one."""
+    rests = (
+        words[start + len(opening) :]
+        for start in range(len(words))
+        for opening in openings
+        if tuple(words[start : start + len(opening)]) == opening
+    )
+    return next((rest[0].capitalize() for rest in rests if {*rest[:1]} & first_names()), "")

@@ -164,3 +164,23 @@ def test_who_comes_back_the_next_day_is_known_again_and_two_people_are_not_confu
     assert "Have we met before, Ben?" not in words
     assert "tea" not in words
     assert b"Ben" not in file.read_bytes()
+
+
+def test_who_says_by_the_way_who_they_are_is_asked_for_consent_too():
+    visit = typed(9, {1.0: "i'm deborah i'm the sister"})
+    assert "May I remember you, Deborah?" in visit.said()
+
+
+def test_no_is_no_answer_to_what_someone_likes():
+    lines = {**INTRODUCED, 16.0: "no", 20.0: "what do you know about me"}
+    visit = typed(24, lines)
+    assert "Okay, never mind." in visit.said()
+    assert "You're Anna. You haven't told me more than that." in visit.said()
+
+
+def test_who_does_not_say_whether_they_have_met_is_not_made_another_person(tmp_path):
+    file = tmp_path / "people.db"
+    day(file, {1.0: "my name is ben", 7.0: "yes"}, 12)
+    second = day(file, {1.0: "my name is ben"}, 16, DayLater())
+    assert "Have we met before, Ben?" in second.said()
+    assert not [text for text in second.said() if text.startswith("May I remember you")]

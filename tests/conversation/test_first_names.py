@@ -2,7 +2,7 @@
 
 import pytest
 
-from hri.conversation.first_names import first_names, introduced
+from hri.conversation.first_names import first_names, introduced, introduces_self
 
 
 @pytest.mark.parametrize(
@@ -22,6 +22,19 @@ from hri.conversation.first_names import first_names, introduced
 )
 def test_who_is_introduced_has_a_common_name(text, person):
     assert introduced(text) == person
+
+
+@pytest.mark.parametrize(
+    ("text", "is_own"),
+    [
+        ("hi i'm deborah", True),
+        ("my name's Leo", True),
+        ("this is tommy", False),
+        ("i'm tired", False),
+    ],
+)
+def test_who_says_their_own_name_introduces_nobody_else(text, is_own):
+    assert introduces_self(text) is is_own
 
 
 def test_the_name_of_the_robot_introduces_no_one():
