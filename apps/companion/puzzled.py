@@ -117,8 +117,7 @@ def puzzle(companion: Companion, heard: Mapping[str, Any]) -> None:
         if found is not None and _can_ask_for(companion, found.rule, unsure[0]):
             companion.puzzlement.last = now
             companion.show("confused")
-            sure = dict(heard.get("sure", {}))
-            companion.lessons.start(_ask_for, companion, found.rule, unsure[0], sure)
+            companion.lessons.start(_ask_for, companion, found.rule, heard)
             return
     examples = companion.examples()
     offers = [as_said(one) for rule, one in examples.items() if _is_worth_offering(companion, rule)]
@@ -135,12 +134,14 @@ def _can_ask_for(companion: Companion, rule: str, tag: str) -> bool:
 
 
 async def _ask_for(
-    context: TaskContext, companion: Companion, rule: str, tag: str, sure: dict[str, Any]
+    context: TaskContext, companion: Companion, rule: str, heard: Mapping[str, Any]
 ) -> None:
     """Ask for the value that was not clear, and do what the whole command says."""
-    answer = await verbs.ask_value(context, rule, tag)
+    doubted = verbs.doubted_of(companion.listener.loaded_grammar, heard)
+    answer = await verbs.ask_value(context, rule, heard["unsure"][0], doubted=doubted)
     if answer is not None:
-        companion.reply(rule, answer.command or answer.text, {**sure, **answer.tags})
+        tags = {**heard.get("sure", {}), **answer.tags}
+        companion.reply(rule, answer.command or answer.text, tags)
 
 
 def _tell(companion: Companion, answer: Answer, text: str) -> None:

@@ -158,12 +158,18 @@ async def ask(
 
 
 async def ask_value(
-    context: TaskContext, rule: str, tag: str, timeout: float = 6.0, question: str = ""
+    context: TaskContext,
+    rule: str,
+    tag: str,
+    timeout: float = 6.0,
+    question: str = "",
+    doubted: Mapping[str, Any] = MappingProxyType({}),
 ) -> Utterance | None:
     """Ask for one value of a command in force; the answer with its tags, or None.
 
     Without a `question` it asks by the name of the tag, "Which size?". Meanwhile the grammar is
     what gives that tag of the rule its value (`values_of`), also among other words; else as `ask`.
+    `doubted` are tags that were heard before and are not sure.
     """
     asked = question or f"Which {_in_words(tag)}?"
 
@@ -172,7 +178,7 @@ async def ask_value(
 
     path = str(context.behavior(Listener).loaded_grammar.path)
     async with answers_of(context, path, prepared) as whole:
-        answer_of = _HeardAnswer(values_of(whole, rule, tag), asked)
+        answer_of = _HeardAnswer(values_of(whole, rule, tag), asked, doubted=doubted)
         return await _ask(context, asked, timeout, 0, answer_of)
 
 
@@ -284,23 +290,28 @@ def _is_asked(context: TaskContext, person: str) -> bool:
 
 
 class _HeardAnswer:
-    """Takes the first thing heard for the answer, with what was clear of those before it."""
+    """Takes the first thing heard for the answer, with what was clear of those before it.
+
+    A value that was in doubt and is heard a second time is clear, except where the robot moves.
+    """
 
     def __init__(
-        self, grammar: Grammar, asked: str, sure: Mapping[str, Any] = MappingProxyType({})
+        self,
+        grammar: Grammar,
+        asked: str,
+        sure: Mapping[str, Any] = MappingProxyType({}),
+        doubted: Mapping[str, Any] = MappingProxyType({}),
     ) -> None:
         self._grammar, self._asked = grammar, asked
-        self._sure = sure
+        self._sure, self._doubted = sure, doubted
 
     def __call__(
         self, context: TaskContext, event: Event
     ) -> tuple[Utterance | None] | _Refusal | _Again | None:
-        sure, unsure = (event.properties.get(name) for name in ("sure", "unsure"))
-        if event.name == "speech.rejected" and unsure:
-            asked = f"Which {_in_words(unsure[0])}?"
-            kept = {**self._sure, **(sure or {})}
-            return _Again(asked, _HeardAnswer(self._grammar, asked, kept))
-        heard = context.behavior(Listener).last_utterance
+        listener = context.behavior(Listener)
+        if event.name == "speech.rejected" and event.properties.get("unsure"):
+            return self._doubtful(listener.loaded_grammar, event.properties)
+        heard = listener.last_utterance
         if event.name != "speech.heard" or heard is None:
             return None
         if heard.rule == CANCEL:
@@ -313,6 +324,27 @@ class _HeardAnswer:
                 return (None,)
             heard = replace(heard, rule=meant.rule, tags=meant.tags)
         return (replace(heard, tags={**self._sure, **heard.tags}),)
+
+    def _doubtful(
+        self, grammar: Grammar, heard: Mapping[str, Any]
+    ) -> tuple[Utterance | None] | _Again:
+        """The answer where all that is in doubt was heard before, else the next question."""
+        sure = {**self._sure, **(heard.get("sure") or {})}
+        doubted = doubted_of(grammar, heard)
+        found = parse(grammar, str(heard.get("text", "")))
+        same = {tag: value for tag, value in doubted.items() if self._doubted.get(tag) == value}
+        left = [tag for tag in heard["unsure"] if tag not in same]
+        if not left and found is not None and found.rule not in grammar.marked("careful"):
+            return (Utterance(heard["text"], found.rule, {**sure, **same}),)
+        asked = f"Which {_in_words((left or heard['unsure'])[0])}?"
+        return _Again(asked, _HeardAnswer(self._grammar, asked, {**sure, **same}, doubted))
+
+
+def doubted_of(grammar: Grammar, heard: Mapping[str, Any]) -> dict[str, Any]:
+    """The tags of a sentence that is not sure which are in doubt; of `speech.rejected`."""
+    found = parse(grammar, str(heard.get("text", "")))
+    tags = {} if found is None else found.tags
+    return {tag: tags[tag] for tag in heard.get("unsure", ()) if tag in tags}
 
 
 def _in_words(tag: str) -> str:

@@ -102,6 +102,35 @@ def test_what_was_unclear_of_an_answer_is_asked_again(robot, tmp_path):
     assert answer.tags == {"size": "large", "plantMilk": "soy"}
 
 
+@pytest.mark.parametrize(
+    ("second", "mark", "expected"),
+    [
+        ("oat milk", "", {"plantMilk": "oat"}),
+        ("soy milk", "", None),
+        ("oat milk", "/** @careful */ ", None),
+    ],
+)
+def test_a_value_in_doubt_that_is_heard_twice_counts_unless_the_robot_moves(
+    robot, tmp_path, second, mark, expected
+):
+    milk = tmp_path / "milk.jsgf"
+    milk.write_text(
+        "#JSGF V1.0;\ngrammar milk;\n"
+        f"{mark}public <milk> = (soy {{plantMilk=soy}} | oat {{plantMilk=oat}}) milk;\n"
+    )
+    heard = iter(("oat milk", second))
+
+    def respond(event):
+        if text := next(heard, ""):
+            robot.events.raise_event(
+                "speech.rejected", sure={}, unsure=["plantMilk"], reason="", text=text
+            )
+
+    robot.events.subscribe("question.asked", respond)
+    answer = robot.ask("Which?", grammar=str(milk), retries=1, timeout=2.0)
+    assert (answer and answer.tags) == expected
+
+
 def test_an_answer_that_is_also_a_stop_is_both(robot, tmp_path):
     """A grammar of one's own that has "stop" among its answers."""
     grammar = tmp_path / "go_on.jsgf"
