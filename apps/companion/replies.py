@@ -231,17 +231,20 @@ def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
     Raises AuthoringError with the place of a mistake; AuthoringErrors when there are several.
     """
     mistakes = Mistakes()
-    own = vocabulary.app.folder / FILE
-    tables = [load_toml(path, KIND) for path in files]
+    own = [app.folder / FILE for app in (vocabulary.app, *vocabulary.app.all_skills())]
+    tables = {path: load_toml(path, KIND) for path in files}
     found, is_whole = Replies(unasked=USUALLY_UNASKED), True
-    for table in tables:
+    for path, table in tables.items():
         parts, are_all = parts_of(table, mistakes)
         is_whole = is_whole and are_all
-        found = _joined(found, _read(parts, vocabulary, mistakes, is_own=table.path == own))
-    # The app may have no replies at all: then they are missing from there.
-    last = tables[-1] if tables and tables[-1].path == own else Table({}, own, (), {})
+        found = _joined(found, _read(parts, vocabulary, mistakes, is_own=path in own))
     if is_whole:
-        _refuse_gaps(found, last, vocabulary, mistakes)
+        # One that has no replies at all has gaps there.
+        last, *skills = (tables.get(path, Table({}, path, (), {})) for path in own)
+        for skill in skills:
+            _refuse_unanswered(found, skill, vocabulary, mistakes)
+        if not mistakes.errors:
+            _refuse_gaps(found, last, vocabulary, mistakes)
     mistakes.tell()
     return found
 
@@ -313,6 +316,16 @@ def _refuse_gaps(found: Replies, table: Table, vocabulary: Vocabulary, mistakes:
             mistakes.add(
                 table.error("unasked", f'"{key}" is missing in [unasked]', f"add {key} = ...")
             )
+
+
+def _refuse_unanswered(
+    found: Replies, table: Table, vocabulary: Vocabulary, mistakes: Mistakes
+) -> None:
+    """Note the rules of a skill, whose replies these are, that have none."""
+    folder, rules = table.path.parent, vocabulary.grammar.rules
+    own = (rule for rule in vocabulary.rules if rules[rule].path.is_relative_to(folder))
+    if missing := [rule for rule in own if rule not in found.replies]:
+        mistakes.add(_unanswered(table, missing))
 
 
 def _unanswered(table: Table, missing: Sequence[str]) -> AuthoringError:
@@ -391,19 +404,21 @@ def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> TaskType | None:
     """The task that `action` names; one of the app comes before one of the companion."""
     if not (action := entry.string("action", "")):
         return None
-    own = [name for name in vocabulary.app.task_names() if name not in vocabulary.app.tasks]
-    if action not in own and vocabulary.app.has_plain_function(action):
+    app, skill = vocabulary.app, vocabulary.app.skill_at(entry.path)
+    part = skill or app
+    own = [name for name in app.task_names(skill) if name not in part.tasks]
+    if action not in own and app.has_plain_function(action, skill):
         what = f"{action} in tasks.py is not a task"
         remedy = f"write: async def {action}(context, ...), or decorate it with @immediate"
         raise entry.error("action", what, remedy)
     if action not in own and "." not in action:
         remedy = did_you_mean(action, own)
-        tasks = vocabulary.app.folder / "tasks.py"
+        tasks = part.folder / "tasks.py"
         if not tasks.exists():
             remedy = f"{remedy} If it is a task of yours, {tasks} is missing"
         raise entry.error("action", f'action is "{action}"', remedy)
     try:
-        task = vocabulary.app.task_type(action)
+        task = app.task_type(action, skill)
     except HriError as error:
         what, _, remedy = str(error).partition(" - ")
         raise entry.error("action", what, remedy) from error

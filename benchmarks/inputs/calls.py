@@ -66,6 +66,26 @@ def choices(path: Path) -> object:
     return load_choices()
 
 
+def skill(path: Path) -> object:
+    """A skill of an app, and the networks that it names; a broken one is off."""
+    from hri.core.errors import HriError
+    from hri.robot.app import load_app
+
+    folder = path.parents[2]
+    (folder / "app.toml").write_text('networks = ["networks/wander"]\n')
+    app = load_app(str(folder))
+    for one in app.off:
+        raise HriError(one.why)
+    return app.load_networks()
+
+
+def choice_of_skills(path: Path) -> object:
+    """The skills that are off, in the folder of settings."""
+    from hri.robot.skills import turned_off
+
+    return turned_off()
+
+
 def event_form(path: Path) -> None:
     """An event as people read it."""
     _survives("event", _read_text(path))

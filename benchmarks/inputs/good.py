@@ -49,6 +49,19 @@ def apps() -> list[bytes]:
     )
 
 
+def skills() -> list[bytes]:
+    """A skill with a network and a reaction."""
+    return _lines(
+        'about = "A skill"\nnetworks = ["networks/follow"]\nevents = ["a.b"]\n',
+        'about = "Dice"\n[on]\n"timer.ended" = "wonder"\n"head.*" = ["notice", "wonder"]\n',
+    )
+
+
+def choices_of_skills() -> list[bytes]:
+    """What `hri skill off` writes."""
+    return _lines('off = ["dice", "sums"]\n')
+
+
 def choices() -> list[bytes]:
     """What `hri doctor --choose` writes."""
     return _lines('[microphone]\ndevice = "USB Audio"\n\n[camera]\ndevice = "/dev/video0"\n')

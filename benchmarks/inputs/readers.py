@@ -37,6 +37,9 @@ READERS: dict[str, Reader] = {
     "archive": Reader(calls.archive, good.archives, "a.zip", is_text=False),
     "breakpoint": Reader(calls.condition, good.conditions, "condition.txt"),
     "choice of devices": Reader(calls.choices, good.choices, "home/hri/devices.toml"),
+    "choice of skills": Reader(
+        calls.choice_of_skills, good.choices_of_skills, "home/hri/skills.toml"
+    ),
     "color": Reader(calls.color, _shipped("config/colors/*.color"), "a.color"),
     "draft of a network": Reader(calls.draft, good.drafts, ".n.xml.draft"),
     "emotion display": _named(
@@ -141,6 +144,7 @@ READERS: dict[str, Reader] = {
         _shipped("config/behavior/*/*.xml", "docs/tutorials/*/behavior/*/*.xml"),
         "behavior/A/a.xml",
     ),
+    "skill": Reader(calls.skill, good.skills, "app/skills/a/skill.toml"),
     "sound, MP3 and others": _named(
         "hri.hal.drivers.wav_file:load_sound", good.sounds, "a.ogg", is_text=False
     ),

@@ -21,6 +21,7 @@ COMMANDS = {
     "doctor": ("hri.cli.doctor", "test microphone, speaker, camera, screen, base and models"),
     "devices": ("hri.cli.devices", "list the devices of a configuration, and which are present"),
     "new": ("hri.cli.new", "create a driver, behavior, task, primitive, app or face"),
+    "skill": ("hri.cli.skill", "list, check, create and test what an app can do beside its own"),
     "network": ("hri.cli.network", "check, show and draw behavior networks"),
     "schema": ("hri.cli.schema", "export the schemas of behaviors as XML"),
     "grammar": ("hri.cli.grammar", "check, parse with, and expand grammars"),
@@ -51,8 +52,8 @@ COMMANDS = {
 """Each command is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 
 POSIX_ONLY = frozenset((
-    "bench", "companion", "devices", "doctor", "drive", "forget", "memory", "run", "soak", "studio",
-    "token",
+    "bench", "companion", "devices", "doctor", "drive", "forget", "memory", "run", "skill", "soak",
+    "studio", "token",
 ))  # fmt: skip
 """Commands that Windows cannot run."""
 

@@ -123,18 +123,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    template, name = _template(options), _module_name(options.name)
-    if not NAME.fullmatch(name):
-        remedy = "start with a letter, then letters, digits and _: wave_hand"
-        raise HriError(f'"{options.name}" is not a name - {remedy}')
+    template = _template(options)
     if not options.to.is_dir():
         raise HriError(f"{options.to}: no such folder - make it, or check the path")
-    folder: Path = options.to / name
-    if folder.exists():
-        raise HriError(f"{folder}: already exists - choose another name, or --to another folder")
-    _refuse_taken(name, template)
-    with new_folder(folder) as new:
-        _write(template, name, new)
+    folder = create(template, options.name, options.to)
+    name = folder.name
     report(f"{folder}: {template.kind.about}. Next:")
     print()
     report(f"  cd {folder}")
@@ -142,6 +135,21 @@ def run(options: argparse.Namespace) -> int:
     for step in template.kind.steps:
         report(f"  {_renamed(step, name)}")
     return 0
+
+
+def create(template: Template, word: str, to: Path) -> Path:
+    """Write a new folder into another one; where it is. Raises HriError for an unfit name."""
+    name = _module_name(word)
+    if not NAME.fullmatch(name):
+        remedy = "start with a letter, then letters, digits and _: wave_hand"
+        raise HriError(f'"{word}" is not a name - {remedy}')
+    folder = to / name
+    if folder.exists():
+        raise HriError(f"{folder}: already exists - choose another name, or --to another folder")
+    _refuse_taken(name, template)
+    with new_folder(folder) as new:
+        _write(template, name, new)
+    return folder
 
 
 def _template(options: argparse.Namespace) -> Template:

@@ -16,7 +16,7 @@ VARIABLES = ("HRI_PATH", "EVOLUTION_CONFIG_PATH")
 SUFFIXES = {"grammars": (".jsgf", ".gram"), "config": (".xml",)}
 """What a name without a suffix gets, the first that is there, by kind; else ".toml". Sphinx and
 Java name their JSGF files ".gram"."""
-MARKS = {"apps": "app.toml", "faces": "face.toml"}
+MARKS = {"apps": "app.toml", "faces": "face.toml", "skills": "skill.toml"}
 """By kind of which each one is a folder, the file that such a folder has."""
 FOLDERS = tuple(MARKS)
 

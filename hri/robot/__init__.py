@@ -26,7 +26,7 @@ from hri.behavior.network_check import check_together
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
-from hri.core.errors import HriError, first_of
+from hri.core.errors import AuthoringError, HriError, first_of
 from hri.core.event_bus import EventBus
 from hri.core.latest import Board
 from hri.core.quoting import report
@@ -45,6 +45,7 @@ from hri.robot.failures import FailureTeller
 from hri.robot.finding import find_object
 from hri.robot.provenance import RunRecord, Setup
 from hri.robot.recording import Recording
+from hri.robot.skills import turned_off, why_off
 from hri.robot.sources import authored
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
@@ -88,8 +89,9 @@ class Robot(BlockingVerbs):
         Raises HriError or AuthoringError; NotAvailable on Windows.
         """
         require_posix("a robot")
-        self.app = load_app(app)
         self.clock = clock or RealClock()
+        off = turned_off()
+        self.app = load_app(app, off)
         self._config = paths.find("config", config)
         asked = load_configuration(self._config)
         # Also what the command line replaces is checked: a mistake must not wait for its day.
@@ -108,22 +110,18 @@ class Robot(BlockingVerbs):
         )
         self.resources.is_to_repeat |= seed != 0
         self.resources.check()
-        self._authored = self.app.load_networks()
-        _override(self._authored, parameters or {})
-        check_together(self._authored)
-        for network in self._authored:
-            network.check()
-        self.events = EventBus(self.clock)
-        self.board = Board()
-        own = (doors or Doors()).with_more(self.app.trusted, self.app.events)
+        while (error := self._assemble(parameters or {}, doors or Doors(), seed)) is not None:
+            skill = self.app.skill_at(error.place.path)
+            if skill is None:
+                raise error
+            off[skill.name] = why_off(error)
+            self.app = load_app(app, off)
+        for one in self.app.off:
+            if one.is_broken:
+                notice(f"the skill {one.name} is off: {one.why}")
         behaviors = _behaviors_of(self._authored)
-        for line in own.unknown(bridge_ports(behaviors.values())):
+        for line in self._doors.unknown(bridge_ports(behaviors.values())):
             notice(line)
-        context = Context(self.clock, self.events, self.resources, self.board, seed, own)
-        self.tasks = TaskManager(context, behaviors)
-        self.networks = self.tasks.networks
-        self.context = self.tasks.context
-        self.app.check(self.context)
         if record == "":
             raise HriError("an empty name of a folder for the recording - name one, or write None")
         self.record = None if record is None else Path(record)
@@ -144,6 +142,33 @@ class Robot(BlockingVerbs):
         self._why = "closed"
         """Why it ended, or will if no one says why."""
         self._ready: Callable[[], None] = lambda: None
+
+    def _assemble(
+        self, parameters: dict[str, dict[str, Any]], doors: Doors, seed: int
+    ) -> AuthoringError | None:
+        """Make networks and tasks of the app, and check all; the mistake, which a skill may have.
+
+        Raises HriError for one that has no place.
+        """
+        try:
+            self._authored = self.app.load_networks()
+            _override(self._authored, parameters)
+            check_together(self._authored)
+            for network in self._authored:
+                network.check()
+            self.events = EventBus(self.clock)
+            self.board = Board()
+            self._doors = doors.with_more(self.app.trusted, self.app.events)
+            lent = (self.clock, self.events, self.resources, self.board, seed, self._doors)
+            self.tasks = TaskManager(Context(*lent), _behaviors_of(self._authored))
+            self.networks = self.tasks.networks
+            self.context = self.tasks.context
+            self.app.check(self.context)
+            if self.app.all_skills():
+                self.app.load_tasks()
+        except AuthoringError as error:
+            return error
+        return None
 
     # --- the loop ---
 

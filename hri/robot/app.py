@@ -10,17 +10,18 @@ the same name.
     replies.toml   its replies, where it extends the companion
     demo.toml      the visitors of `--demo`
     *.jsgf         other grammars, such as those of questions, which its tasks name
+    skills/NAME/   its skills (`hri.robot.skills`)
 """
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from types import ModuleType
+from types import MappingProxyType, ModuleType
 from typing import Self
 
 from hri.behavior.network import Network
@@ -30,6 +31,7 @@ from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.python_file import load_module
 from hri.core.toml import Table, load_toml
 from hri.robot.event_tasks import start_on
+from hri.robot.skills import OffSkill, read_skills
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import load_grammar
 from hri.speech.listener import FOLDERS
@@ -41,6 +43,8 @@ GRAMMARS = tuple(f"grammar{suffix}" for suffix in paths.suffixes("grammars"))
 """Names that its grammar may have; the first that is there counts."""
 REPLIES = "replies.toml"
 """What it replies, and the robot's name."""
+APP, SKILL = "app.toml", "skill.toml"
+"""What lists the parts of an app, and of a skill."""
 NETWORK = ".xml"
 SLOT = "app"
 """Slot of the board with the app that runs."""
@@ -66,6 +70,11 @@ class App:
     """Topics of its grammar's rules, `@topic`, that it does not hear."""
     base: Self | None = None
     """The app that it extends; what that one has is in the fields above, too."""
+    skills: tuple[Self, ...] = ()
+    """Those that are plugged into it; their networks, ports and events are in the fields above."""
+    off: tuple[OffSkill, ...] = ()
+    """Skills of its line that are not plugged in."""
+    is_skill: bool = False
 
     @property
     def name(self) -> str:
@@ -85,12 +94,28 @@ class App:
             raise HriError("no app runs - start one with Robot(app=...)")
         return app
 
+    @property
+    def file(self) -> Path:
+        """Where its parts are listed."""
+        return self.folder / (SKILL if self.is_skill else APP)
+
     def line(self) -> Iterator[App]:
-        """The app, the one that it extends, and so on."""
+        """The app and its skills, the one that it extends and the skills of that, and so on."""
         app: App | None = self
         while app is not None:
             yield app
+            yield from app.skills
             app = app.base
+
+    def skill_at(self, path: Path) -> App | None:
+        """The skill that a file is of."""
+        place = path.resolve()
+        inside = (one for one in self.all_skills() if place.is_relative_to(one.folder.resolve()))
+        return next(inside, None)
+
+    def all_skills(self) -> tuple[App, ...]:
+        """Those of its line, in the order in which they are plugged in."""
+        return tuple(app for app in self.line() if app.is_skill)
 
     def files(self, name: str) -> list[Path]:
         """The files of that name of all apps in its line, its own last."""
@@ -99,8 +124,12 @@ class App:
 
     def grammar(self) -> Path | None:
         """Its own grammar, or that of the nearest app in its line that has one."""
-        places = (app.folder / name for app in self.line() for name in GRAMMARS)
-        return next(filter(paths.is_file, places), None)
+        own = (app for app in self.line() if not app.is_skill)
+        return next(filter(None, map(_grammar_of, own)), None)
+
+    def grammars_of_skills(self) -> list[Path]:
+        """What its skills understand."""
+        return list(filter(None, map(_grammar_of, self.all_skills())))
 
     def robot_name(self) -> str:
         """What its replies call the robot; empty when none do, or when they cannot be read."""
@@ -120,6 +149,7 @@ class App:
                 behavior.set_parameter("silent_topics", " ".join(self.silent_topics))
                 if grammar is not None:
                     behavior.set_parameter("grammar", str(grammar))
+                behavior.set_parameter("skills", "\n".join(map(str, self.grammars_of_skills())))
         self._refuse_unknown_topics(networks)
         return networks
 
@@ -130,7 +160,7 @@ class App:
         names = [one.grammar for one in behaviors if isinstance(one, Listener)]
         known = {topic for name in names for topic in load_grammar(name).topics}
         for app in self.line():
-            table = load_toml(app.folder / "app.toml")
+            table = load_toml(app.file)
             for topic in table.strings("silent_topics", []):
                 if topic not in known:
                     what = f'no rule of the grammar has the topic "{topic}"'
@@ -141,88 +171,97 @@ class App:
 
         Raises AuthoringError for a name that no `tasks.py` has, or a task that needs arguments.
         """
-        starters = [
-            partial(start_on, pattern, self._on_event(pattern, names))
-            for pattern, names in self.on.items()
-        ]
-        return [*(self._without_arguments(name) for name in self.tasks), *starters]
+        return [job for part in (self, *self.all_skills()) for job in self._jobs_of(part)]
 
-    def task(self, name: str) -> Job:
+    def _jobs_of(self, part: App) -> Iterator[Job]:
+        """What the app, or one of its skills, lists."""
+        for name in part.tasks:
+            yield self._without_arguments(name, part)
+        for pattern, names in part.on.items():
+            yield partial(start_on, pattern, self._on_event(pattern, names, part))
+
+    def task(self, name: str, part: App | None = None) -> Job:
         """A task by name: of its `tasks.py`, of those of the apps it extends, or "Hri.Speak".
 
-        Raises HriError for one that is not there.
+        For a skill, its `part`, a task of that one comes first. Raises HriError for one that is not
+        there.
         """
         if "." in name:
             return find_task(name)
-        modules = [app.module for app in self.line() if app.module is not None]
+        modules = self._modules(part)
         # A task comes before what a module only imports.
         modules.sort(key=lambda module: name not in _tasks_of(module))
         for module in modules:
             if hasattr(module, name):
                 job: Job = getattr(module, name)
                 return job
-        where = self.folder / "tasks.py"
-        raise HriError(f'no task "{name}" in {where} - {did_you_mean(name, self.task_names())}')
+        where = (part or self).folder / "tasks.py"
+        raise HriError(f'no task "{name}" in {where} - {did_you_mean(name, self.task_names(part))}')
 
-    def task_type(self, name: str) -> TaskType:
+    def _modules(self, part: App | None) -> list[ModuleType]:
+        """Every `tasks.py` that a part may name tasks of: its own first, and of no other skill."""
+        own = [] if part is None else [part]
+        others = [app for app in self.line() if app not in own and not app.is_skill]
+        return [app.module for app in (*own, *others) if app.module is not None]
+
+    def task_type(self, name: str, part: App | None = None) -> TaskType:
         """The task as one that takes its arguments by name. Raises HriError as `task` does."""
-        job = self.task(name)
+        job = self.task(name, part)
         return job if isinstance(job, TaskType) else TaskType(name, job)
 
-    def task_names(self) -> list[str]:
+    def task_names(self, part: App | None = None) -> list[str]:
         """The tasks in its `tasks.py` and in those of the apps it extends, sorted."""
-        modules = [app.module for app in self.line() if app.module is not None]
-        return sorted({name for module in modules for name in _tasks_of(module)})
+        return sorted({name for module in self._modules(part) for name in _tasks_of(module)})
 
-    def has_plain_function(self, name: str) -> bool:
+    def has_plain_function(self, name: str, part: App | None = None) -> bool:
         """Whether a `tasks.py` of its line has a function of that name that is not a task."""
-        modules = [app.module for app in self.line() if app.module is not None]
         return any(
             inspect.isfunction(found := getattr(module, name, None))
             and not _is_task(found)
             and found.__module__ == module.__name__
-            for module in modules
+            for module in self._modules(part)
         )
 
-    def _without_arguments(self, name: str) -> Job:
+    def _without_arguments(self, name: str, part: App) -> Job:
         try:
-            job = self.task(name)
+            job = self.task(name, part)
         except HriError as error:
             what, _, remedy = str(error).rpartition(" - ")
-            raise AuthoringError(self._place_of_task(name), what, remedy) from error
-        if isinstance(job, TaskType):
-            try:
-                job.bound()
-            except HriError as error:
-                what = str(error).partition(" - ")[0]
-                remedy = "call it from a task of tasks.py"
-                raise AuthoringError(self._place_of_task(name), what, remedy) from error
+            raise AuthoringError(self._place_of_task(name, part), what, remedy) from error
+        try:
+            self.task_type(name, part).bound()
+        except HriError as error:
+            what = str(error).partition(" - ")[0]
+            remedy = "call it from a task of tasks.py"
+            raise AuthoringError(self._place_of_task(name, part), what, remedy) from error
         return job
 
-    def _on_event(self, pattern: str, names: tuple[str, ...]) -> tuple[TaskType, ...]:
+    def _on_event(self, pattern: str, names: tuple[str, ...], part: App) -> tuple[TaskType, ...]:
         """What an event starts. Raises AuthoringError for a task that it may lack something for."""
         try:
-            jobs = tuple(self.task_type(name) for name in names)
+            jobs = tuple(self.task_type(name, part) for name in names)
         except HriError as error:
             what, _, remedy = str(error).rpartition(" - ")
-            raise AuthoringError(self._place_of_event(pattern), what, remedy) from error
+            raise AuthoringError(self._place_of_event(pattern, part), what, remedy) from error
         for job in jobs:
             for name, parameter in job.parameters.items():
                 if parameter.default is inspect.Parameter.empty and name != "event":
                     what = f'[on] "{pattern}": {job.id} needs {name}, which an event may lack'
                     remedy = f"give {name} a default value"
-                    raise AuthoringError(self._place_of_event(pattern), what, remedy)
+                    raise AuthoringError(self._place_of_event(pattern, part), what, remedy)
         return jobs
 
-    def _place_of_event(self, pattern: str) -> Place:
-        """Where `[on]` of the app, or else of one that it extends, names an event."""
-        tables = (load_toml(app.folder / "app.toml") for app in self.line())
+    @staticmethod
+    def _place_of_event(pattern: str, part: App) -> Place:
+        """Where `[on]` of a part, or else of an app that it extends, names an event."""
+        tables = (load_toml(app.file) for app in part.line() if app is part or not app.is_skill)
         reactions = (table.table("on", optional=True) for table in tables)
         return next(on.place(pattern) for on in reactions if pattern in on)
 
-    def _place_of_task(self, name: str) -> Place:
-        """Where `tasks` of the app, or else of one that it extends, names a task."""
-        tables = (load_toml(app.folder / "app.toml") for app in self.line())
+    @staticmethod
+    def _place_of_task(name: str, part: App) -> Place:
+        """Where `tasks` of a part, or else of an app that it extends, names a task."""
+        tables = (load_toml(app.file) for app in part.line() if app is part or not app.is_skill)
         return next(table.place("tasks") for table in tables if name in table.strings("tasks", []))
 
     def check(self, context: TaskContext) -> None:
@@ -230,21 +269,22 @@ class App:
         now = context.clock.now()
         context.board.slot(SLOT).set(self, now)
         context.board.slot(FOLDERS).set(tuple(app.folder for app in self.line()), now)
-        if self.tasks or self.on:
+        if self.tasks or self.on or self.skills:
             for app in self.line():
                 if app.module is not None and hasattr(app.module, "check"):
                     app.module.check(context)
 
     @cached_property
     def module(self) -> ModuleType | None:
-        """`tasks.py`, in a separate package so that it can import its neighbors. None if an app
-        that extends another does not have it.
+        """`tasks.py`, in a separate package so that it can import its neighbors. None if a skill,
+        or an app that extends another, does not have it.
         """
-        if (self.base or self.is_network) and not paths.is_file(self.folder / "tasks.py"):
+        may_lack = self.base or self.is_network or self.is_skill
+        if may_lack and not paths.is_file(self.folder / "tasks.py"):
             return None
-        package = f"hri_app_{self.folder.resolve().name}"
+        package = f"hri_{'skill' if self.is_skill else 'app'}_{self.folder.resolve().name}"
         beside = self.folder / "__init__.py"
-        if self.base is None or paths.is_file(beside):
+        if not may_lack or paths.is_file(beside):
             load_module(package, beside, [str(self.folder)])
             return load_module(f"{package}.tasks", self.folder / "tasks.py", None)
         return load_module(f"{package}_tasks", self.folder / "tasks.py", None)
@@ -263,37 +303,76 @@ def _is_task(value: object) -> bool:
     return inspect.iscoroutinefunction(value) or isinstance(value, TaskType)
 
 
-def load_app(name: str) -> App:
+def load_app(name: str, off: Mapping[str, str] = MappingProxyType({})) -> App:
     """Read an app by name or path, and those it extends; the file of a network is an app of it.
 
+    Skills that are `off`, by name and why, are not plugged in, nor those that cannot be read.
     Raises HriError or AuthoringError.
     """
     if name.endswith(NETWORK):
         path = paths.find("config", name)
         return App(path, f"the network {path.name}", (path,), ())
-    return _load(paths.find("apps", name), ())
+    return _load(paths.find("apps", name), (), off)
 
 
-def _load(folder: Path, above: tuple[str, ...]) -> App:
-    file = folder / "app.toml"
+def _load(folder: Path, above: tuple[str, ...], off: Mapping[str, str]) -> App:
+    file = folder / APP
     if folder.is_dir() and not paths.exists(file):
         raise HriError(f"{folder} has no app.toml, which makes a folder an app - add one")
     table = load_toml(file, "app")
     extends = table.string("extends", "")
-    base = _base(table, folder, extends, (*above, folder.resolve().name)) if extends else None
+    base = _base(table, folder, extends, (*above, folder.resolve().name), off) if extends else None
     own = table.strings("networks", *([[]] if base else []))
-    networks = _merged(base.networks if base else (), [_beside(table, one) for one in own])
-    tasks = _added(base.tasks if base else (), table.strings("tasks", []))
-    trusted = _added(base.trusted if base else (), table.strings("trusted", []))
-    events = _added(base.events if base else (), table.strings("events", []))
-    silent = _added(base.silent_topics if base else (), table.strings("silent_topics", []))
-    about = table.string("about", "")
-    on = {**(base.on if base else {}), **_reactions(table)}
+    app = _parts(table, folder, base, own)
+    skills = read_skills(table, folder, off, partial(_skill, app))
     table.finish()
-    return App(folder, about, networks, tasks, trusted, events, on, silent, base)
+    found = _with_skills(app, skills.on)
+    return replace(found, off=(*(base.off if base else ()), *skills.off))
 
 
-def _base(table: Table, folder: Path, extends: str, above: tuple[str, ...]) -> App:
+def _parts(table: Table, folder: Path, base: App | None, networks: list[str]) -> App:
+    """An app or a skill with the things that its lists name, and with those of its base."""
+    below = base or App(folder, "", (), ())
+    return App(
+        folder,
+        table.string("about", ""),
+        _merged(below.networks, [_beside(table, one) for one in networks]),
+        _added(below.tasks, table.strings("tasks", [])),
+        _added(below.trusted, table.strings("trusted", [])),
+        _added(below.events, table.strings("events", [])),
+        {**below.on, **_reactions(table)},
+        _added(below.silent_topics, table.strings("silent_topics", [])),
+        base,
+    )
+
+
+def _skill(app: App, folder: Path) -> App:
+    """Read a skill. Raises HriError or AuthoringError."""
+    table = load_toml(folder / SKILL, "skill")
+    skill = replace(_parts(table, folder, None, table.strings("networks", [])), is_skill=True)
+    table.finish()
+    _ = skill.module  # Python that fails must not wait for its first use.
+    if skill.name in [one.name for one in app.line()]:
+        raise HriError(f'{folder}: "{skill.name}" is the name of an app - rename the folder')
+    return skill
+
+
+def _with_skills(app: App, skills: Sequence[App]) -> App:
+    """An app with the networks of its skills, and with what they let in from outside."""
+    together = app
+    for skill in skills:
+        together = replace(
+            together,
+            networks=_merged(together.networks, skill.networks),
+            trusted=_added(together.trusted, skill.trusted),
+            events=_added(together.events, skill.events),
+        )
+    return replace(together, skills=tuple(skills))
+
+
+def _base(
+    table: Table, folder: Path, extends: str, above: tuple[str, ...], off: Mapping[str, str]
+) -> App:
     try:
         found = paths.find("apps", extends)
     except HriError as error:
@@ -302,7 +381,7 @@ def _base(table: Table, folder: Path, extends: str, above: tuple[str, ...]) -> A
     if found.resolve().name in above:
         what = f'"{extends}" has the name of an app that extends it'
         raise table.error("extends", what, f"give {folder.resolve()} another name")
-    return _load(found, above)
+    return _load(found, above, off)
 
 
 def _reactions(table: Table) -> dict[str, tuple[str, ...]]:
@@ -315,12 +394,17 @@ def _reactions(table: Table) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def _merged(base: tuple[Path, ...], own: list[Path]) -> tuple[Path, ...]:
+def _grammar_of(app: App) -> Path | None:
+    """The grammar in the folder of an app or of a skill."""
+    return next(filter(paths.is_file, (app.folder / name for name in GRAMMARS)), None)
+
+
+def _merged(base: tuple[Path, ...], own: Sequence[Path]) -> tuple[Path, ...]:
     names = {path.name for path in own}
     return (*(path for path in base if path.name not in names), *own)
 
 
-def _added(base: tuple[str, ...], own: list[str]) -> tuple[str, ...]:
+def _added(base: tuple[str, ...], own: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*base, *own)))
 
 

@@ -9,13 +9,14 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.recorded import FILES
+from hri.robot.skills import own_folder as own_skills
 from hri.speech.pronunciation.lexicon import user_lexicon
 from hri.vision.color.color_model import own_colors
 from hri.vision.objects.model_file import own_models
 
 CODE = Path(__file__).parents[1]
 """The folder of hri itself: between two versions, it changes as well."""
-KINDS = ("apps", "config", "emotions", "faces", "grammars")
+KINDS = ("apps", "config", "emotions", "faces", "grammars", "skills")
 """What is looked for in the search folders."""
 AUTHORED = frozenset((".color", ".gram", ".jsgf", ".mdl", ".py", ".svg", ".toml", ".txt", ".xml"))
 """Suffixes of the files that count in a folder."""
@@ -24,11 +25,12 @@ PASSED_OVER = ("node_modules", "recordings")
 
 
 def of_every_run() -> Iterator[Path]:
-    """The code, the content of the search folders, and the user's lexicon, colors and models."""
+    """The code, what the search folders hold, and the user's lexicon, colors, models and skills."""
     yield CODE
     yield user_lexicon()
     yield own_colors()
     yield own_models()
+    yield own_skills()
     for folder in paths.search_folders():
         yield from (folder / kind for kind in KINDS)
 

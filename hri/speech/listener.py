@@ -111,6 +111,7 @@ class Listener(Behavior):
     microphone_id = Param("microphone", "resource that hears")
     recognizer_id = Param("recognizer", "resource that finds the words")
     grammar = Param("companion", "name or path of the grammar")
+    skills = Param("", "paths of grammars whose commands count beside its own, a line each")
     robot_name = Param("", "what the robot is called; rules marked @name know it")
     silent_topics = Param("", "topics, @topic of rules, that are not heard; spaces between them")
     strictness = Param(STRICTNESS, "confidence from which words count", minimum=0.0, maximum=1.0)
@@ -135,11 +136,11 @@ class Listener(Behavior):
     """The last utterance."""
 
     def check(self) -> None:
-        load_grammar(self.grammar)
+        self._read(paths.find("grammars", self.grammar))
 
     def start(self, context: Context) -> None:
         path = paths.find("grammars", self.grammar)
-        self._first = load_grammar(path)
+        self._first = self._read(path)
         self._events, self._clock, self._board = context.events, context.clock, context.board
         self._recognizer = context.resources.obtain(self.recognizer_id, Recognizer)
         microphone = context.resources.obtain(self.microphone_id, Microphone)
@@ -177,7 +178,12 @@ class Listener(Behavior):
 
         Raises HriError or AuthoringError when the file cannot be read.
         """
-        return self._without_silent_topics(load_grammar(paths.find("grammars", self.grammar)))
+        return self._without_silent_topics(self._read(paths.find("grammars", self.grammar)))
+
+    def _read(self, path: Path) -> Grammar:
+        """A grammar file; that of its parameter with the commands of skills."""
+        is_own = path == paths.find("grammars", self.grammar)
+        return load_grammar(path, list(map(Path, self.skills.splitlines())) if is_own else ())
 
     def _without_silent_topics(self, grammar: Grammar) -> Grammar:
         return grammar.without_topics(self.silent_topics.split())
@@ -232,10 +238,10 @@ class Listener(Behavior):
 
         Where there is no other one, a grammar that the recognizer refuses serves for typed lines.
         """
-        grammar = layer.grammar or load_grammar(layer.path)
+        grammar = layer.grammar or self._read(layer.path)
         heard = layer.prepare(self._without_silent_topics(grammar))
         for below in layer.below:
-            other = below.grammar or load_grammar(below.path)
+            other = below.grammar or self._read(below.path)
             heard = with_interrupts_of(heard, self._without_silent_topics(other))
         unheard = None
         heard = heard.called(self.robot_name)

@@ -15,6 +15,7 @@ from hri.hal.resource_manager import ResourceManager
 from hri.robot import Robot
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.testing import live_for
+from hri.testing.dialogues import played, read_dialogues
 from tests.devices import TYPED
 
 PAGE = (paths.house() / "docs" / "making.md").read_text()
@@ -54,32 +55,14 @@ def test_the_timer_of_the_page_rings(copied):
     assert {"timer.ended", "gesture.ended"} <= names
 
 
-TALKS = re.findall(r"^```dialogue\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+TALKS = read_dialogues(paths.house() / "docs" / "making.md")
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("dialogue", TALKS)
+@pytest.mark.parametrize("dialogue", TALKS, ids=lambda dialogue: str(dialogue.place.line))
 def test_the_talks_of_the_page_go_as_shown(copied, dialogue):
-    """Each line is typed a second after the robot has said what stands before it."""
     robot = Robot(str(copied / "pizza"), "simulated", clock=FakeClock(), devices=TYPED)
-    keyboard = robot.resources.obtain("recognizer", TypedRecognizer)
-    shown = [line.split(": ", 1) for line in dialogue.splitlines()]
-    happened = []
-
-    def speak_up():
-        if len(happened) < len(shown) and shown[len(happened)][0] == "you":
-            line = shown[len(happened)][1]
-            happened.append(["you", line])
-            keyboard.type_line(line, robot.clock.now())
-
-    def hear(event):
-        happened.append(["robot", event.properties["text"]])
-        robot.clock.call_at(event.time + 1.0, speak_up)
-
-    robot.events.subscribe("speech.finished", hear)
-    robot.clock.call_at(0.5, speak_up)
-    live_for(robot, 26.0, *robot.app.load_tasks())
-    assert happened[: len(shown)] == shown
+    assert dialogue.mistake(played(robot, dialogue)) == ""
 
 
 def test_the_bell_of_the_page_rings_when_its_button_is_pressed(copied):

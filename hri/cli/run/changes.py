@@ -19,9 +19,10 @@ Marks = dict[Path, tuple[int, int]]
 async def announce_changes(
     app: App, tell: Callable[[str], object], has_studio: bool, context: TaskContext
 ) -> None:
-    """Report each saved file that needs a restart, in one line, once per file. These are
-    `app.toml`, Python files and networks; grammars, replies and emotions are reloaded. A network
-    that is the whole app is started again by the studio's page, too.
+    """Report each saved file that needs a restart, in one line, once per file.
+
+    These are `app.toml`, `skill.toml`, Python files and networks; grammars, replies and emotions
+    are reloaded. A network that is the whole app is started again by the studio's page, too.
     """
     load = "press Start again on the page" if has_studio and app.is_network else "restart the robot"
     before, told = marks(app), set[Path]()
@@ -36,7 +37,7 @@ async def announce_changes(
 def marks(app: App) -> Marks:
     """The files of an app, and of those it extends, that are read when it starts."""
     folders = [one.folder for one in app.line()]
-    files = {*app.networks, *(folder / "app.toml" for folder in folders)}
+    files = {*app.networks, *(one.file for one in app.line())}
     found: Marks = {}
     with suppress(OSError):  # a folder that is gone
         files.update(path for folder in folders for path in folder.glob("*.py"))

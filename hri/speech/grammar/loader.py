@@ -18,7 +18,7 @@ needs no import (JSGF 1.0, 3.3). A grammar's own rules hide imported ones of the
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
@@ -30,6 +30,7 @@ from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.reading import read_text
 from hri.speech.grammar import analysis, paraphrases
+from hri.speech.grammar.doc_comments import TOPIC
 from hri.speech.grammar.encoding import read_source
 from hri.speech.grammar.expressions import (
     Alternative,
@@ -66,26 +67,28 @@ _Sources = tuple[Path, tuple[tuple[Path, str | Expression], ...]]
 _kept: dict[_Sources, Grammar] = {}
 
 
-def load_grammar(name: str | Path) -> Grammar:
+def load_grammar(name: str | Path, beside: Sequence[Path] = ()) -> Grammar:
     """The grammar of a file and of all it imports, by path or by name over the search folders.
 
+    The commands of the files `beside` it, such as those of skills, count as well; none may have the
+    name of another command, and what may be said around a command may be said around theirs.
     Raises AuthoringError for the first mistake in it, HriError when it cannot be read.
     """
     path = name if isinstance(name, Path) else paths.find("grammars", name)
-    grammar, errors = read_grammar(path)
+    grammar, errors = read_grammar(path, beside)
     errors = errors or grammar.made(analysis.errors)
     if errors:
         raise errors[0]
     return grammar
 
 
-def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
+def read_grammar(path: Path, beside: Sequence[Path] = ()) -> tuple[Grammar, list[AuthoringError]]:
     """The grammar as far as it can be read, and the mistakes in its writing.
 
     What the rules say is not looked at yet: see `hri.speech.grammar.lint.linter`.
     Raises HriError when the file, or one that it imports, cannot be read at all.
     """
-    return _Loader().load(path)
+    return _Loader().load(path, beside)
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,10 +224,12 @@ class _Loader:
         self._root = Path()
         """The folder of the main file."""
 
-    def load(self, path: Path) -> tuple[Grammar, list[AuthoringError]]:
+    def load(self, path: Path, beside: Sequence[Path]) -> tuple[Grammar, list[AuthoringError]]:
         self._root = path.parent
         main = self._read(path, prefix="", is_heard=True)
         self._extend(main, (main,))
+        for other in beside:
+            self._join(main, other)
         while self._pending:
             file = self._pending.pop(0)
             for use in file.document.imports:
@@ -309,6 +314,31 @@ class _Loader:
             file.document.after = file.document.after or other.document.after
             self._bring(file, use.grammar, other.public_names())
 
+    def _join(self, main: _File, path: Path) -> None:
+        """Make the commands of another file commands of this grammar.
+
+        They count before small talk, whose rules all have a topic.
+        """
+        if path.resolve() in self._files:
+            return
+        chat = next(filter(_is_small_talk, self._pending), None)
+        file = self._read(path, self._free_prefix(path.parent.name), is_heard=True)
+        if chat is not None:
+            self._pending.insert(self._pending.index(chat), self._pending.pop())
+        for rule in file.document.rules:
+            if rule.is_public and file.own[rule.name] != rule.name:
+                what = f"another grammar has a command <{rule.name}>"
+                self._report(file, rule.span, what, "give this one another name")
+        self._extend(file, (main, file))
+        file.document.before = file.document.before or main.document.before
+        file.document.after = file.document.after or main.document.after
+
+    def _free_prefix(self, name: str) -> str:
+        prefix = f"{name}."
+        while any(other.prefix == prefix for other in self._files.values()):
+            prefix = f"{prefix[:-1]}'."
+        return prefix
+
     def _import(self, file: _File, use: Import) -> None:
         """Make the rules of an import visible in a file."""
         other = self._open(file, use.grammar)
@@ -359,10 +389,7 @@ class _Loader:
         if len(self._files) >= MOST_FILES:
             what = f"more than {MOST_FILES} grammar files"
             raise AuthoringError(Place(file.document.path), what, "import fewer")
-        prefix = f"{grammar}."
-        while any(other.prefix == prefix for other in self._files.values()):
-            prefix = f"{prefix[:-1]}'."
-        return self._read(path, prefix, is_heard)
+        return self._read(path, self._free_prefix(grammar), is_heard)
 
     # Rules
 
@@ -508,6 +535,12 @@ def _frames_of(
     if not definition.is_public or marks & {"part", "answer"}:
         return None, None
     return document.before, document.after
+
+
+def _is_small_talk(file: _File) -> bool:
+    """Whether all commands of a file have a topic."""
+    rules = [rule for rule in file.document.rules if rule.is_public]
+    return bool(rules) and all(TOPIC in [tag.name for tag in rule.doc.tags] for rule in rules)
 
 
 def _not_public(other: _File, grammar: str, name: str) -> tuple[str, str]:

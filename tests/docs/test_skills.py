@@ -1,0 +1,54 @@
+"""The skill of docs/skills.md works as the page shows."""
+
+import re
+
+import pytest
+
+from hri.core.clock import FakeClock
+from hri.core.paths import house
+from hri.robot import Robot
+from hri.testing.dialogues import TYPED, played, read_dialogues
+
+PAGE = house() / "docs" / "skills.md"
+FILES = re.findall(
+    r"^`(\w+)/([\w.]+)`[^\n]*\n(?:[^`\n][^\n]*\n|\n)*```\w*\n(.*?)^```",
+    PAGE.read_text(),
+    re.DOTALL | re.MULTILINE,
+)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The skill of the page, plugged in."""
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    for name, file, text in FILES:
+        (tmp_path / "skills" / name).mkdir(parents=True, exist_ok=True)
+        (tmp_path / "skills" / name / file).write_text(text)
+    return tmp_path / "skills" / "fortune"
+
+
+def robot(notice=print):
+    return Robot("companion", "simulated", clock=FakeClock(), devices=TYPED, notice=notice)
+
+
+def test_the_dialogue_of_the_page_goes_as_shown(folder):
+    assert {path.name for path in folder.iterdir()} == {
+        *("skill.toml", "grammar.jsgf", "replies.toml", "tasks.py")
+    }
+    (dialogue,) = read_dialogues(PAGE)
+    assert dialogue.mistake(played(robot(), dialogue)) == ""
+
+
+def test_the_line_about_a_broken_skill_is_as_shown(folder):
+    replies = folder / "replies.toml"
+    replies.write_text(replies.read_text().replace("tell_fortune", "tell_fortun"))
+    lines = []
+    robot(lines.append)
+    (line,) = [one for one in lines if one.startswith("the skill")]
+    assert line.replace(f"{folder.parents[1]}/", "") in PAGE.read_text()
+
+
+def test_the_table_lists_the_skills_that_are_shipped():
+    shipped = {path.parent.name for path in house().glob("apps/companion/skills/*/skill.toml")}
+    assert set(re.findall(r"^\| `(\w+)` \| \"", PAGE.read_text(), re.MULTILINE)) == shipped
