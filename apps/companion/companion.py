@@ -10,6 +10,7 @@ from typing import Any
 from hri.conversation import (
     NEVER,
     Curiosity,
+    Form,
     Moment,
     Pool,
     Puzzlement,
@@ -18,6 +19,8 @@ from hri.conversation import (
     clock_words,
     face_for,
     fields_of,
+    fill,
+    load_forms,
     part_of_day,
     pools,
     sayings,
@@ -34,7 +37,7 @@ from hri.task import ImmediateTask, Job, Lane, TaskContext, TaskType, said
 from hri.vision import people_of
 
 from .facts import Commands, aloud, direction_words
-from .replies import FILE, Replies, Reply, Vocabulary, load_replies
+from .replies import FILE, FORMS, Replies, Reply, Vocabulary, load_replies
 
 DANGER = ("in_danger", "being_hurt", "emergency")
 """Rules of people in danger: they wake it, and it speaks even if it was asked to be quiet."""
@@ -82,7 +85,8 @@ def vocabulary_of(context: TaskContext, grammar: Grammar) -> Vocabulary:
     own = personality_path(context.behavior(EmotionModel).personality).stem
     gestures = load_gestures(face)
     known = {own, *personality_names()}
-    return Vocabulary(grammar, load_stimuli(), face.expressions, gestures, app, known)
+    forms = load_forms(app.files(FORMS))
+    return Vocabulary(grammar, load_stimuli(), face.expressions, gestures, app, known, forms)
 
 
 class Companion:
@@ -196,6 +200,8 @@ class Companion:
             self.make(reply.gesture)
         if words and may_speak:
             self.talk.start(self._say_after, FLOOR_SECONDS if may_go_on else 0.0, words)
+        if reply.form is not None:
+            self.lessons.start(self._fill, reply, reply.form, tags)
         if rule not in ABOUT_THE_LAST:
             self._last = reply
         if rule in FAREWELLS:
@@ -206,6 +212,19 @@ class Companion:
         await context.clock.sleep(seconds)
         self.agreeing.start(self._agree, words)
         await verbs.say(context, words)
+
+    async def _fill(
+        self, context: TaskContext, reply: Reply, form: Form, tags: Mapping[str, Any]
+    ) -> None:
+        """Ask for what a form lacks, and act on it when all is there."""
+        values = await fill(context, form, tags)
+        if values is None:
+            return
+        if form.event:
+            context.events.raise_event(form.event, **values)
+        words = self.perform(reply.form_task, values) or form.filled_in(form.done, values)
+        if words:
+            self.say(words)
 
     async def _agree(self, context: TaskContext, words: str) -> None:
         """Let the face go with the words, where it says something else."""

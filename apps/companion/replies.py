@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from inspect import Parameter
 from pathlib import Path
 
-from hri.conversation import DAY, PARTS_OF_DAY, Wording, check_text, fields_of
+from hri.conversation import DAY, PARTS_OF_DAY, Form, Wording, check_text, fields_of
 from hri.core import (
     OWN_SUBJECTS,
     AuthoringError,
@@ -27,7 +27,7 @@ from hri.task import ImmediateTask, TaskType
 from .reply_files import KIND, joined_entries, parts_of
 from .reply_texts import read_wording
 
-FILE = "replies.toml"
+FILE, FORMS = "replies.toml", "forms.toml"
 AFTER_YES = ("keep", "see")
 """What may be done after a yes: begin to save feelings, or say what it sees. Nothing that moves the
 base: a nod, or a "yes" in other people's talk, is not heard as clearly as an order must be."""
@@ -68,6 +68,10 @@ class Reply:
     """What is raised, with the tags as its properties."""
     because: str = ""
     """The answer to "why" after it; empty for that it was asked to, or for what it feels."""
+    form: Form | None = None
+    """What it asks for, beginning with the tags."""
+    form_task: TaskType | None = None
+    """What the form's `action` names."""
 
     @property
     def say(self) -> list[str]:
@@ -127,6 +131,8 @@ class Vocabulary:
     app: App
     """Knows the tasks."""
     personalities: Collection[str] = field(default_factory=personality_names)
+    forms: Mapping[str, Form] = field(default_factory=dict)
+    """By name."""
 
     @cached_property
     def tags(self) -> frozenset[str]:
@@ -396,8 +402,28 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
     event = _event(entry)
     because = entry.string("because", "")
     check_text(entry, because, braces, "because")
+    form, form_task = _form(entry, vocabulary)
     entry.finish()
-    return Reply(wording, feel, intensity, show, gesture, action, task, event, because)
+    return Reply(
+        wording, feel, intensity, show, gesture, action, task, event, because, form, form_task
+    )
+
+
+def _form(entry: Table, vocabulary: Vocabulary) -> tuple[Form | None, TaskType | None]:
+    """The form that `form` names, and the task of its `action`."""
+    if not (name := entry.string("form", "")):
+        return None, None
+    if name not in vocabulary.forms:
+        remedy = did_you_mean(name, vocabulary.forms, f"write [form.{name}] in {FORMS}")
+        raise entry.error("form", f'there is no form "{name}"', remedy)
+    form = vocabulary.forms[name]
+    if not form.action:
+        return form, None
+    try:
+        return form, vocabulary.app.task_type(form.action, vocabulary.app.skill_at(form.path))
+    except HriError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise entry.error("form", f"{form.path}: {what}", remedy) from error
 
 
 def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> TaskType | None:

@@ -66,6 +66,13 @@ def choices(path: Path) -> object:
     return load_choices()
 
 
+def forms(path: Path) -> object:
+    """The forms of a file, whose grammar is a shipped one."""
+    from hri.conversation.forms import load_forms
+
+    return load_forms([path])
+
+
 def skill(path: Path) -> object:
     """A skill of an app, and the networks that it names; a broken one is off."""
     from hri.core.errors import HriError

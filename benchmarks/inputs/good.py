@@ -49,6 +49,15 @@ def apps() -> list[bytes]:
     )
 
 
+def forms() -> list[bytes]:
+    """A form that confirms, and one that does not."""
+    slot = '[[form.date.slot]]\nname = "date"\nask = "On which day?"\n'
+    texts = 'confirm = "On {date}?"\nchange = "What else?"\nevent = "day.chosen"\n'
+    return _lines(
+        f"[form.date]\n{texts}{slot}", f'[form.date]\ngrammar = "date"\n{slot}none = "any"\n'
+    )
+
+
 def skills() -> list[bytes]:
     """A skill with a network and a reaction."""
     return _lines(

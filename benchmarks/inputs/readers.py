@@ -62,6 +62,7 @@ READERS: dict[str, Reader] = {
     "face settings": Reader(calls.face_settings, _shipped("faces/robot/face.toml"), "face.toml"),
     "face weights": Reader(calls.face_weights, good.weights, "weights.csv"),
     "formula": Reader(calls.formula, good.formulas, "formula.txt"),
+    "forms": Reader(calls.forms, good.forms, "forms.toml"),
     "grammar": _named(
         "hri.speech.grammar:load_grammar",
         _shipped("grammars/*.jsgf", "benchmarks/research/phone_network/calibration/*.jsgf"),

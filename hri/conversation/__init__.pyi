@@ -21,6 +21,7 @@ from .examples import (
     sayings as sayings,
 )
 from .facts import Fact as Fact, fact_of as fact_of
+from .filling import fill as fill
 from .first_names import (
     as_name as as_name,
     introduced as introduced,
@@ -34,6 +35,7 @@ from .floor import (
     may_begin as may_begin,
     may_murmur as may_murmur,
 )
+from .forms import Form as Form, load_forms as load_forms
 from .gist import Gist as Gist
 from .idle_acts import (
     IdleAct as IdleAct,

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from enum import Enum
 from types import MappingProxyType
 from typing import Any, TypeVar
 
@@ -17,7 +18,7 @@ from hri.emotion.appraisal import OccEvent
 from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Face
 from hri.face.model import load_face
-from hri.speech.answering import AGAIN, CANCEL, answering
+from hri.speech.answering import AGAIN, CANCEL, NONE, answering
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import Grammar, parse
 from hri.speech.grammar.slot_values import values_of
@@ -43,6 +44,18 @@ __all__ = [
 ]
 
 T = TypeVar("T")
+
+
+class Ending(Enum):
+    """Why a question has no answer."""
+
+    REFUSED = "refused"
+    """The person wants no more of it."""
+    UNANSWERED = "unanswered"
+    """The time was over."""
+    OTHER = "other"
+    """The person said something else."""
+
 
 ANSWERS = {"yes": True, "no": False, "head.nodded": True, "head.shaken": False}
 """What counts as an answer: rules of the grammar and head gestures."""
@@ -151,10 +164,39 @@ async def ask(
     if grammar:
         async with answers_of(context, grammar, answering) as allowed:
             answer_of = _HeardAnswer(allowed, question)
-            return await _ask(context, question, timeout, retries, answer_of)
+            return _answer(await _ask(context, question, timeout, retries, answer_of))
     if not context.behaviors:
         await listener_of(context)
-    return await _ask(context, question, timeout, retries, _plain_answer)
+    return _answer(await _ask(context, question, timeout, retries, _plain_answer))
+
+
+async def ask_in_force(
+    context: TaskContext,
+    question: str,
+    timeout: float = 6.0,
+    retries: int = 1,
+    questions: Mapping[str, str] = MappingProxyType({}),
+) -> bool | Utterance | Ending:
+    """Ask a question that the grammar in force answers; the answer, or why there is none.
+
+    A nod or a shake answers, too. `questions` are what is asked, by tag, where only that tag was
+    unclear. Otherwise as `ask`.
+    """
+    grammar = context.behavior(Listener).loaded_grammar
+    answer_of = _HeardAnswer(grammar, question, questions=questions)
+
+    def nodded_or_heard(
+        context: TaskContext, event: Event
+    ) -> tuple[bool | Utterance | None] | _Refusal | _Again | None:
+        if event.name in ANSWERS and _is_asked(context, event.properties.get("person", "")):
+            return (ANSWERS[event.name],)
+        return answer_of(context, event)
+
+    return await _ask(context, question, timeout, retries, nodded_or_heard)
+
+
+def _answer(found: T | Ending) -> T | None:
+    return None if isinstance(found, Ending) else found
 
 
 async def ask_value(
@@ -171,7 +213,7 @@ async def ask_value(
     what gives that tag of the rule its value (`values_of`), also among other words; else as `ask`.
     `doubted` are tags that were heard before and are not sure.
     """
-    asked = question or f"Which {_in_words(tag)}?"
+    asked = question or f"Which {in_words(tag)}?"
 
     def prepared(grammar: Grammar) -> Grammar:
         return answering(values_of(grammar, rule, tag))
@@ -179,7 +221,7 @@ async def ask_value(
     path = str(context.behavior(Listener).loaded_grammar.path)
     async with answers_of(context, path, prepared) as whole:
         answer_of = _HeardAnswer(values_of(whole, rule, tag), asked, doubted=doubted)
-        return await _ask(context, asked, timeout, 0, answer_of)
+        return _answer(await _ask(context, asked, timeout, 0, answer_of))
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,8 +246,8 @@ async def _ask(
     timeout: float,
     retries: int,
     answer_of: Callable[[TaskContext, Event], tuple[T | None] | _Refusal | _Again | None],
-) -> T | None:
-    """Ask until something is an answer; None without one.
+) -> T | Ending:
+    """Ask until something is an answer; why not without one.
 
     `answer_of` says of an event what it answers: (None,) when it changes the subject, None when it
     is nothing to the question.
@@ -222,12 +264,13 @@ async def _ask(
             continue
         if isinstance(answer, _Refusal):
             context.events.raise_event("question.refused", text=question)
-            return None
-        if answer[0] is not None:
-            _tell_answer(context, question, answer[0], event)
+            return Ending.REFUSED
+        if answer[0] is None:
+            return Ending.OTHER
+        _tell_answer(context, question, answer[0], event)
         return answer[0]
     context.events.raise_event("question.unanswered", text=question)
-    return None
+    return Ending.UNANSWERED
 
 
 async def _first_answer(
@@ -301,9 +344,10 @@ class _HeardAnswer:
         asked: str,
         sure: Mapping[str, Any] = MappingProxyType({}),
         doubted: Mapping[str, Any] = MappingProxyType({}),
+        questions: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._grammar, self._asked = grammar, asked
-        self._sure, self._doubted = sure, doubted
+        self._sure, self._doubted, self._questions = sure, doubted, questions
 
     def __call__(
         self, context: TaskContext, event: Event
@@ -314,7 +358,7 @@ class _HeardAnswer:
         heard = listener.last_utterance
         if event.name != "speech.heard" or heard is None:
             return None
-        if heard.rule == CANCEL:
+        if heard.rule in (CANCEL, NONE):
             return _Refusal()
         if heard.rule == AGAIN:
             return _Again(self._asked, self, retries=0)
@@ -336,8 +380,10 @@ class _HeardAnswer:
         left = [tag for tag in heard["unsure"] if tag not in same]
         if not left and found is not None and found.rule not in grammar.marked("careful"):
             return (Utterance(heard["text"], found.rule, {**sure, **same}),)
-        asked = f"Which {_in_words((left or heard['unsure'])[0])}?"
-        return _Again(asked, _HeardAnswer(self._grammar, asked, {**sure, **same}, doubted))
+        tag = (left or heard["unsure"])[0]
+        asked = self._questions.get(tag) or f"Which {in_words(tag)}?"
+        kept = {**sure, **same}
+        return _Again(asked, _HeardAnswer(self._grammar, asked, kept, doubted, self._questions))
 
 
 def doubted_of(grammar: Grammar, heard: Mapping[str, Any]) -> dict[str, Any]:
@@ -347,7 +393,7 @@ def doubted_of(grammar: Grammar, heard: Mapping[str, Any]) -> dict[str, Any]:
     return {tag: tags[tag] for tag in heard.get("unsure", ()) if tag in tags}
 
 
-def _in_words(tag: str) -> str:
+def in_words(tag: str) -> str:
     """The name of a tag as it is said: milkAmount, milk_amount: "milk amount"."""
     return " ".join(re.findall(r"[A-Z]?[a-z]+|[A-Z]+|\d+", tag)).lower()
 

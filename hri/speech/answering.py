@@ -1,8 +1,9 @@
 """What people may say to a question, beside the sentences of its grammar.
 
 Around an answer there may be what `<asking.before>` and `<asking.after>` say, and any other words:
-to "Which size?", "um a large one please with ham" is "large". `<asking.cancel>` ends the question
-and `<asking.again>` has it said again; a sentence that the grammar has itself is its own.
+to "Which size?", "um a large one please with ham" is "large". `<asking.cancel>` and `<asking.none>`
+end the question, `<asking.again>` has it said again; a sentence that the grammar has itself is its
+own.
 """
 
 from __future__ import annotations
@@ -25,16 +26,20 @@ from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 
 SHARED = "asking.jsgf"
 """The grammar with what every question lets people say, which is English."""
-CANCEL, AGAIN = "asking.cancel", "asking.again"
+CANCEL, NONE, AGAIN = "asking.cancel", "asking.none", "asking.again"
 """Rules of what does not answer."""
 BEFORE, AFTER = "asking.before", "asking.after"
 """Rules of what may be said around an answer."""
+CORRECTING = "asking.correcting"
+"""The rule of what may be said before an answer that replaces another one."""
 EXACT = frozenset(("careful", "interrupts"))
 """Marks of rules that never count among other words unless they are marked so."""
 
 
-def answering(grammar: Grammar) -> Grammar:
+def answering(grammar: Grammar, before: str = BEFORE) -> Grammar:
     """The grammar as it is heard while its question is open; in other languages as it is.
+
+    `before` is the rule of what may be said before an answer.
 
     Its rules count @anywhere, except those that move the robot or interrupt, and those that have a
     sentence of fewer than FEWEST_PHONES sounds: "two" is heard in all kinds of speech. Numbers
@@ -48,16 +53,16 @@ def answering(grammar: Grammar) -> Grammar:
     rules = dict(found.rules)
     for key in grammar.public_rules:
         is_exact = sounds[key] < FEWEST_PHONES or not EXACT.isdisjoint(rules[key].marks)
-        rules[key] = _as_answer(rules[key], is_exact)
-    for key in (CANCEL, AGAIN):
+        rules[key] = _as_answer(rules[key], before, is_exact)
+    for key in (CANCEL, NONE, AGAIN):
         rules[key] = replace(rules[key], is_public=True)
     return replace(found, rules=rules)
 
 
-def _as_answer(rule: Rule, is_exact: bool) -> Rule:
-    before, after = (RuleReference(key, rule.span) for key in (BEFORE, AFTER))
+def _as_answer(rule: Rule, before: str, is_exact: bool) -> Rule:
+    first, last = (RuleReference(key, rule.span) for key in (before, AFTER))
     marks = () if is_exact else (DocTag("anywhere", "", rule.span),)
-    expression = framed(rule.expression, before, after)
+    expression = framed(rule.expression, first, last)
     return replace(rule, expression=expression, doc_tags=(*rule.doc_tags, *marks))
 
 

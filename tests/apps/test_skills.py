@@ -107,6 +107,13 @@ def broken(folder):
         },
         "also": {"grammar": WAVE.format("al"), "replies": "also = ['x.toml']\n[reply.al]\n"},
         "outside": {"grammar": WAVE.format("ou"), "replies": "also = ['../x.toml']\n[reply.ou]\n"},
+        "form": {"grammar": WAVE.format("fo"), "replies": "[reply.fo]\nform = 'x'\n"},
+        "form_toml": {"forms": "[form"},
+        "form_without_slot": {"grammar": WAVE.format("fs"), "forms": "[form.grammar]\n"},
+        "form_without_grammar": {"forms": "[form.x]\n[[form.x.slot]]\nname = 'a'\nask = 'A?'\n"},
+        "form_key": {"forms": "[forms.x]\n"},
+        "companion": {},  # the name of the app
+        "deep": {"skill": "a." * 50 + "b = 1"},
         "unasked": {"replies": "[unasked]\nnothing_like_it = 'A'\n"},
         "question": {"replies": "[[question]]\nask = 3\n"},
     }

@@ -1,4 +1,4 @@
-"""The skill of docs/skills.md works as the page shows."""
+"""The skills of docs/skills.md and docs/forms.md work as the pages show."""
 
 import re
 
@@ -10,22 +10,33 @@ from hri.robot import Robot
 from hri.testing.dialogues import TYPED, played, read_dialogues
 
 PAGE = house() / "docs" / "skills.md"
-FILES = re.findall(
-    r"^`(\w+)/([\w.]+)`[^\n]*\n(?:[^`\n][^\n]*\n|\n)*```\w*\n(.*?)^```",
-    PAGE.read_text(),
-    re.DOTALL | re.MULTILINE,
+
+
+FORMS = house() / "docs" / "forms.md"
+FILE = re.compile(
+    r"^`(\w+)/([\w.]+)`[^\n]*\n(?:[^`\n][^\n]*\n|\n)*```\w*\n(.*?)^```", re.DOTALL | re.MULTILINE
 )
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """The skill of the page, plugged in."""
+def plugged_in(tmp_path, monkeypatch):
+    """Plugs in the skills of a page; their folder."""
     monkeypatch.setenv("HRI_PATH", str(tmp_path))
     monkeypatch.chdir(tmp_path)
-    for name, file, text in FILES:
-        (tmp_path / "skills" / name).mkdir(parents=True, exist_ok=True)
-        (tmp_path / "skills" / name / file).write_text(text)
-    return tmp_path / "skills" / "fortune"
+
+    def plug_in(page):
+        for name, file, text in FILE.findall(page.read_text()):
+            (tmp_path / "skills" / name).mkdir(parents=True, exist_ok=True)
+            (tmp_path / "skills" / name / file).write_text(text)
+        return tmp_path / "skills"
+
+    return plug_in
+
+
+@pytest.fixture
+def folder(plugged_in):
+    """The skill of docs/skills.md."""
+    return plugged_in(PAGE) / "fortune"
 
 
 def robot(notice=print):
@@ -52,3 +63,11 @@ def test_the_line_about_a_broken_skill_is_as_shown(folder):
 def test_the_table_lists_the_skills_that_are_shipped():
     shipped = {path.parent.name for path in house().glob("apps/companion/skills/*/skill.toml")}
     assert set(re.findall(r"^\| `(\w+)` \| \"", PAGE.read_text(), re.MULTILINE)) == shipped
+
+
+@pytest.mark.parametrize(
+    "dialogue", read_dialogues(FORMS), ids=lambda dialogue: str(dialogue.place.line)
+)
+def test_the_dialogues_with_forms_go_as_shown(plugged_in, dialogue):
+    assert {place.name for place in plugged_in(FORMS).iterdir()} == {"pizza", "meeting", "survey"}
+    assert dialogue.mistake(played(robot(), dialogue)) == ""
