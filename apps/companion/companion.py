@@ -200,7 +200,7 @@ class Companion:
             self.make(reply.gesture)
         if words and may_speak:
             self.talk.start(self._say_after, FLOOR_SECONDS if may_go_on else 0.0, words)
-        if reply.form is not None:
+        if reply.form is not None and may_speak:
             self.lessons.start(self._fill, reply, reply.form, tags)
         if rule not in ABOUT_THE_LAST:
             self._last = reply

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from inspect import Parameter
 from pathlib import Path
 
-from hri.conversation import DAY, PARTS_OF_DAY, Form, Wording, check_text, fields_of
+from hri.conversation import (
+    DAY,
+    PARTS_OF_DAY,
+    Form,
+    Wording,
+    check_text,
+    fields_of,
+    read_event,
+)
 from hri.core import (
-    OWN_SUBJECTS,
     AuthoringError,
     HriError,
     Mistakes,
@@ -21,7 +27,7 @@ from hri.core import (
 )
 from hri.emotion import KNOWN_FEELINGS, personality_names
 from hri.robot import GRAMMARS, App
-from hri.speech import Grammar, sure_tags
+from hri.speech import Grammar, load_grammar, sure_tags
 from hri.task import ImmediateTask, TaskType
 
 from .reply_files import KIND, joined_entries, parts_of
@@ -49,7 +55,6 @@ MOTION = ("distance", "angle")
 """Tags of a motion: a rule that gives one may have {direction} in its texts."""
 HEARD = "text"
 """What a task or an event may take beside the tags: the words that were heard."""
-_EVENT = re.compile(r"[A-Za-z]\w*(\.\w+)+")
 
 
 @dataclass(frozen=True)
@@ -138,6 +143,16 @@ class Vocabulary:
     def tags(self) -> frozenset[str]:
         """Names of all tags of the grammar."""
         return self.grammar.tag_names()
+
+    def skill_of(self, rule: str) -> App | None:
+        """The skill that a rule of the grammar is of; None for one of the app."""
+        return self._skills[self.grammar.rules[rule].path]
+
+    @cached_property
+    def _skills(self) -> dict[Path, App | None]:
+        """By the file of a grammar."""
+        files = {rule.path for rule in self.grammar.rules.values()}
+        return {path: self.app.skill_at(path) for path in files}
 
     @property
     def rules(self) -> tuple[str, ...]:
@@ -249,8 +264,7 @@ def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
         last, *skills = (tables.get(path, Table({}, path, (), {})) for path in own)
         for skill in skills:
             _refuse_unanswered(found, skill, vocabulary, mistakes)
-        if not mistakes.errors:
-            _refuse_gaps(found, last, vocabulary, mistakes)
+        _refuse_gaps(found, last, vocabulary, mistakes)
     mistakes.tell()
     return found
 
@@ -315,7 +329,8 @@ def _refuse_gaps(found: Replies, table: Table, vocabulary: Vocabulary, mistakes:
         mistakes.add(table.error(None, '"name" is missing in this file', "add name = ..."))
     given = table.data.get("reply")
     written = given if isinstance(given, dict) else {}
-    if missing := [rule for rule in vocabulary.rules if rule not in {*found.replies, *written}]:
+    own = [rule for rule in vocabulary.rules if vocabulary.skill_of(rule) is None]
+    if missing := [rule for rule in own if rule not in {*found.replies, *written}]:
         mistakes.add(_unanswered(table, missing))
     for key in UNASKED:
         if key not in found.unasked and key not in table.data.get("unasked", {}):
@@ -328,8 +343,8 @@ def _refuse_unanswered(
     found: Replies, table: Table, vocabulary: Vocabulary, mistakes: Mistakes
 ) -> None:
     """Note the rules of a skill, whose replies these are, that have none."""
-    folder, rules = table.path.parent, vocabulary.grammar.rules
-    own = (rule for rule in vocabulary.rules if rules[rule].path.is_relative_to(folder))
+    skill = vocabulary.app.skill_at(table.path)
+    own = (rule for rule in vocabulary.rules if vocabulary.skill_of(rule) is skill)
     if missing := [rule for rule in own if rule not in found.replies]:
         mistakes.add(_unanswered(table, missing))
 
@@ -399,7 +414,7 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
         raise entry.error("feel", f'no stimulus "{feel}"', remedy)
     intensity = entry.number("intensity", 1.0, minimum=0, maximum=1)
     action, task = entry.string("action", ""), _action(rule, entry, vocabulary)
-    event = _event(entry)
+    event = read_event(entry)
     because = entry.string("because", "")
     check_text(entry, because, braces, "because")
     form, form_task = _form(entry, vocabulary)
@@ -417,13 +432,23 @@ def _form(entry: Table, vocabulary: Vocabulary) -> tuple[Form | None, TaskType |
         remedy = did_you_mean(name, vocabulary.forms, f"write [form.{name}] in {FORMS}")
         raise entry.error("form", f'there is no form "{name}"', remedy)
     form = vocabulary.forms[name]
+    for rule in load_grammar(form.grammar).public_rules:
+        if rule in vocabulary.rules:
+            what = f"its grammar {form.grammar} has a rule <{rule}>, which is also a command"
+            raise entry.error("form", f"the form {name}: {what}", "give the rule another name")
     if not form.action:
         return form, None
     try:
-        return form, vocabulary.app.task_type(form.action, vocabulary.app.skill_at(form.path))
+        task = vocabulary.app.task_type(form.action, vocabulary.app.skill_at(form.path))
     except HriError as error:
         what, _, remedy = str(error).partition(" - ")
-        raise entry.error("form", f"{form.path}: {what}", remedy) from error
+        raise entry.error("form", f"the form {name}: {what}", remedy) from error
+    slots = [slot.name for slot in form.slots]
+    for needed, parameter in task.parameters.items():
+        if parameter.default is Parameter.empty and needed not in slots:
+            what = f'the task {task.id} needs "{needed}", which is not a slot of the form {name}'
+            raise entry.error("form", what, did_you_mean(needed, slots))
+    return form, task
 
 
 def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> TaskType | None:
@@ -467,17 +492,6 @@ def _refuse_unfit(rule: str, task: TaskType, entry: Table, grammar: Grammar) -> 
             what = f'the task {task.id} needs "{name}", which <{rule}> does {when}'
             remedy = f"give {name} a default value, or write {{{name}=...}} in the grammar"
             raise entry.error("action", what, remedy)
-
-
-def _event(entry: Table) -> str:
-    event = entry.string("event", "")
-    if event and not _EVENT.fullmatch(event):
-        remedy = 'write a subject and what happened, such as "timer.set"'
-        raise entry.error("event", f'"{event}" does not name an event', remedy)
-    if event.partition(".")[0] in OWN_SUBJECTS:
-        remedy = "choose another first word"
-        raise entry.error("event", f'"{event}" is kept for what the robot itself senses', remedy)
-    return event
 
 
 def _question(entry: Table, vocabulary: Vocabulary, is_own: bool) -> Question:

@@ -21,7 +21,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from hri.conversation import NEVER, may_begin
+from hri.conversation import NEVER, load_forms, may_begin
 from hri.core import KEYBOARD, Event, HriError, Worker, caused_by
 from hri.emotion import load_stimuli
 from hri.face import FaceRenderer
@@ -61,7 +61,7 @@ from .idling import authored_acts, idle
 from .moving_by_feeling import pose
 from .presence import attend
 from .puzzled import puzzle
-from .replies import FILE, Replies, load_replies
+from .replies import FILE, FORMS, Replies, load_replies
 from .reply_files import with_named_files
 from .things import find, forget, learn, see, where
 
@@ -138,10 +138,10 @@ async def take_saved_replies(context: TaskContext) -> None:
     Raises `replies.changed` (file), or `replies.refused` (file, error).
     """
     companion = Companion.of(context)
-    files = App.of(context).files(FILE)
+    files, forms = App.of(context).files(FILE), App.of(context).files(FORMS)
     worker: Worker[Replies] = context.clock.worker(READING_SECONDS)
     vocabulary = vocabulary_of(context, companion.listener.loaded_grammar)
-    watched = with_named_files(files)
+    watched = [*with_named_files(files), *forms]
     seen = _changed_at(watched)
     with context.queue("grammar.changed") as queue:
         while True:
@@ -150,11 +150,12 @@ async def take_saved_replies(context: TaskContext) -> None:
                 is_new_grammar = await queue.get() is not None
             if not is_new_grammar and seen == _changed_at(watched):
                 continue
-            watched = with_named_files(files)
+            watched = [*with_named_files(files), *forms]
             seen = _changed_at(watched)
             grammar = companion.listener.loaded_grammar
             vocabulary = replace(vocabulary, grammar=grammar, stimuli=load_stimuli())
             try:
+                vocabulary = replace(vocabulary, forms=load_forms(forms))
                 worker.submit(partial(load_replies, files, vocabulary))
                 while not (read := worker.poll()):
                     await context.clock.sleep(READING_SECONDS)

@@ -1,4 +1,5 @@
 from .agreement import face_for as face_for, suits as suits
+from .authored_event import read_event as read_event
 from .choosing import (
     Moment as Moment,
     Pool as Pool,

@@ -53,7 +53,7 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
             if slot is None and not form.confirm:
                 return values
             question = slot.ask if slot else form.filled_in(form.confirm, values)
-            answer = await _answer(context, form, question)
+            answer = await _answer(context, form, question, is_yes_or_no=slot is None)
             if isinstance(answer, Ending):
                 return None
             if isinstance(answer, Utterance) and (tags := _told(form, answer)):
@@ -90,13 +90,16 @@ def _with(values: Mapping[str, Any], told: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in {**values, **told}.items() if value is not None}
 
 
-async def _answer(context: TaskContext, form: Form, question: str) -> bool | Utterance | Ending:
+async def _answer(
+    context: TaskContext, form: Form, question: str, is_yes_or_no: bool = False
+) -> bool | Utterance | Ending:
     """The answer to a question of a form; who says something else is asked again."""
     questions = {slot.name: slot.ask for slot in form.slots}
-    answer = await ask_in_force(context, question, questions=questions)
+    ask = partial(ask_in_force, context, question, questions=questions, is_yes_or_no=is_yes_or_no)
+    answer = await ask()
     if answer is Ending.OTHER and not _is_interrupted(context):
         await _after_what_is_said(context)
-        answer = await ask_in_force(context, question, questions=questions)
+        answer = await ask()
     return answer
 
 

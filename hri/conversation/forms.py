@@ -28,6 +28,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from hri.conversation.authored_event import read_event
 from hri.conversation.spoken_text import check_text
 from hri.core import paths
 from hri.core.errors import HriError, Mistakes, did_you_mean
@@ -121,14 +122,12 @@ def _form(name: str, entry: Table) -> Form:
     if not slots:
         raise entry.error(None, f"the form {name} has no slot", f"add [[form.{name}.slot]]")
     names = [slot.name for slot in slots]
-    texts = {
-        key: entry.string(key, "") for key in ("confirm", "change", "done", "refused", "event")
-    }
+    texts = {key: entry.string(key, "") for key in ("confirm", "change", "done", "refused")}
     for key, text in texts.items():
         check_text(entry, text, names, key)
-    action = entry.string("action", "")
+    event, action = read_event(entry), entry.string("action", "")
     entry.finish()
-    return Form(name, entry.path, path, slots, action=action, **texts)
+    return Form(name, entry.path, path, slots, event=event, action=action, **texts)
 
 
 def _grammar(entry: Table, name: str) -> Path:

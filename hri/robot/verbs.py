@@ -176,14 +176,17 @@ async def ask_in_force(
     timeout: float = 6.0,
     retries: int = 1,
     questions: Mapping[str, str] = MappingProxyType({}),
+    is_yes_or_no: bool = False,
 ) -> bool | Utterance | Ending:
     """Ask a question that the grammar in force answers; the answer, or why there is none.
 
-    A nod or a shake answers, too. `questions` are what is asked, by tag, where only that tag was
-    unclear. Otherwise as `ask`.
+    A nod or a shake answers one that `is_yes_or_no`. `questions` are what is asked, by tag, where
+    only that tag was unclear. Otherwise as `ask`.
     """
     grammar = context.behavior(Listener).loaded_grammar
     answer_of = _HeardAnswer(grammar, question, questions=questions)
+    if not is_yes_or_no:
+        return await _ask(context, question, timeout, retries, answer_of)
 
     def nodded_or_heard(
         context: TaskContext, event: Event

@@ -147,7 +147,9 @@ def test_a_turn_keeps_to_its_profile(
     cruise = min(velocity, robot.drive.max_angular)
     assert fastest.angular <= cruise + 1e-9
     reachable = min(acceleration, 0.8 * robot.drive.max_angular_acceleration)
-    assert robot.clock.now() == pytest.approx(Trapezoid(angle, cruise, reachable).duration, abs=0.5)
+    planned = Trapezoid(angle, cruise, reachable).duration
+    # As for a move: a short turn is over before the limited jerk lets it speed up that much.
+    assert planned - 0.02 <= robot.clock.now() <= planned + (0.5 if planned > 1.0 else 0.7)
     robot.clock.advance(1.0)
     assert robot.pose().heading == pytest.approx(angle, abs=math.radians(0.1))
     assert robot.velocity() == Twist()

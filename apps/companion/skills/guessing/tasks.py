@@ -1,6 +1,6 @@
 """A guessing game: questions whose answers may be nods and shakes."""
 
-from hri.robot.verbs import ask
+from hri.robot import verbs
 from hri.task import TaskContext
 
 LEAST, MOST = 1, 100
@@ -14,7 +14,7 @@ async def guess_number(context: TaskContext) -> str:
     least, most = LEAST, MOST
     while least < most:
         middle = (least + most) // 2
-        is_more = await ask(context, f"Is it more than {middle}?")
+        is_more = await verbs.ask(context, f"Is it more than {middle}?")
         if is_more is None:
             return "Okay, we can play again later."
         least, most = (middle + 1, most) if is_more else (least, middle)
