@@ -35,7 +35,6 @@ from hri.core.errors import HriError, Mistakes, did_you_mean
 from hri.core.toml import Table, load_toml
 from hri.speech.grammar import load_grammar
 
-FILE = "forms.toml"
 NOTHING = ""
 """Value of a slot that is to stay empty."""
 TURNS_EACH = 3
