@@ -23,6 +23,8 @@ SMOOTH = Twist(0.4, 1.6)
 """How fast a smooth stop slows down: m/s² and rad/s²."""
 _HEADROOM = 0.8
 """Share of the greatest acceleration that motions plan with; the rest is left to catch up with."""
+_MOVE_RAMP, _TURN_RAMP = 0.7, 0.6
+"""Seconds at least from rest to the peak: with less, the limited jerk carries it past its goal."""
 
 
 class BaseDrive(OnBase, DriveSystem, EmergencyStop):
@@ -184,19 +186,16 @@ class BaseDrive(OnBase, DriveSystem, EmergencyStop):
         _positive(velocity, "velocity", "m/s")
         _positive(acceleration, "acceleration", "m/s²")
         fastest = self.max_linear if distance > 0 else min(self.max_linear, self._slowest.backward)
-        profile = Trapezoid(
-            distance, min(velocity, fastest), min(acceleration, self._limits.linear)
-        )
-        return self._begin(MoveDelta(profile))
+        acceleration = min(acceleration, self._limits.linear, abs(distance) / _MOVE_RAMP**2)
+        return self._begin(MoveDelta(Trapezoid(distance, min(velocity, fastest), acceleration)))
 
     def turn_delta(self, angle: float, velocity: float, acceleration: float) -> Pending[None]:
         _finite(angle, "angle", "radians")
         _positive(velocity, "velocity", "rad/s")
         _positive(acceleration, "acceleration", "rad/s²")
-        profile = Trapezoid(
-            angle, min(velocity, self.max_angular), min(acceleration, self._limits.angular)
-        )
-        return self._begin(TurnDelta(profile))
+        velocity = min(velocity, self.max_angular)
+        acceleration = min(acceleration, self._limits.angular, abs(angle) / _TURN_RAMP**2)
+        return self._begin(TurnDelta(Trapezoid(angle, velocity, acceleration)))
 
     def move_and_turn(
         self,
