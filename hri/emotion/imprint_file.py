@@ -5,10 +5,10 @@ checked.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from hri.core.errors import HriError, did_you_mean
+from hri.core.json_fields import LARGEST, LATEST, Fields
 from hri.emotion.affect import Imprint, Need, Soothed, Trace
 from hri.emotion.emotions import NAMES, PART_OF
 from hri.emotion.held import Held, Level
@@ -16,11 +16,6 @@ from hri.emotion.label import MOODS, NOTHING
 from hri.emotion.ledger import Axes, LedgerRow, Origin
 
 T = TypeVar("T")
-
-LARGEST = 1e12
-"""No charge, pull or regard that comes from living is anywhere near."""
-LATEST = 1e12
-"""Seconds; no clock shows more."""
 
 
 def encoded(imprint: Imprint) -> dict[str, Any]:
@@ -90,82 +85,6 @@ def decoded(data: object) -> Imprint:
     )
 
 
-class Fields:
-    """A JSON object whose values are asked for by name and kind; errors say where they stand."""
-
-    def __init__(self, data: object, place: str) -> None:
-        """Raises HriError for anything but an object."""
-        if not isinstance(data, dict):
-            raise HriError(f"{place} is not a table")
-        self._data: Mapping[str, Any] = data
-        self._place = place
-
-    def __contains__(self, name: str) -> bool:
-        """Whether anything stands there, null aside."""
-        return self._data.get(name) is not None
-
-    def names(self) -> tuple[str, ...]:
-        """All its names."""
-        return tuple(self._data)
-
-    def value(self, name: str) -> Any:
-        """Whatever stands there. Raises HriError when nothing does."""
-        if name not in self._data:
-            raise HriError(f"{self._place} has no {name}")
-        return self._data[name]
-
-    def number(
-        self, name: str, highest: float, lowest: float = -LATEST, default: float | None = None
-    ) -> float:
-        """A number within a range; the default, if there is one, when nothing stands there."""
-        if default is not None and self._data.get(name) is None:
-            return default
-        return _number(self.value(name), f"{self._place}.{name}", lowest, highest)
-
-    def numbers(self, name: str) -> list[float]:
-        """A list of numbers within -LARGEST to LARGEST."""
-        where = f"{self._place}.{name}"
-        return [_number(item, where, -LARGEST, LARGEST) for item in self._list(name)]
-
-    def text(self, name: str) -> str:
-        """A text."""
-        return _text(self.value(name), f"{self._place}.{name}")
-
-    def truth(self, name: str, default: bool) -> bool:
-        """True or false; the default when nothing stands there."""
-        value = self._data.get(name, default)
-        if not isinstance(value, bool):
-            raise HriError(f"{self._place}.{name} is neither true nor false")
-        return value
-
-    def entries(self, name: str, default: list[Any] | None = None) -> list[Fields]:
-        """A list of objects; the default, if there is one, when nothing stands there."""
-        items = enumerate(self._list(name) if default is None or name in self else default)
-        return [Fields(item, f"{self._place}.{name}[{number}]") for number, item in items]
-
-    def below(self, name: str) -> Fields:
-        """An object."""
-        return Fields(self.value(name), f"{self._place}.{name}")
-
-    def table(self, name: str, make: Callable[[Fields], T]) -> dict[str, T]:
-        """An object of objects by names, each made into something."""
-        below = self.below(name)
-        return {key: make(below.below(key)) for key in below._data}
-
-    def charges(self, name: str) -> dict[str, float]:
-        """Charges by emotion."""
-        below = self.below(name)
-        for part in below._data:
-            _check_emotion(PART_OF.get(part, part), below._place)
-        return {emotion: below.number(emotion, LARGEST, 0.0) for emotion in below._data}
-
-    def _list(self, name: str) -> list[Any]:
-        value = self.value(name)
-        if not isinstance(value, list):
-            raise HriError(f"{self._place}.{name} is not a list")
-        return value
-
-
 def _named(origin: Origin) -> dict[str, str | None]:
     return {"name": origin.name, "person": origin.person}
 
@@ -176,7 +95,11 @@ def _origin(entry: Fields) -> Origin:
 
 
 def _charges(entry: Fields) -> dict[str, float]:
-    return entry.charges("charges")
+    """Charges by emotion."""
+    below = entry.below("charges")
+    for part in below.names():
+        _check_emotion(PART_OF.get(part, part), below.place)
+    return {emotion: below.number(emotion, LARGEST, 0.0) for emotion in below.names()}
 
 
 def _axes(entry: Fields) -> Axes:
@@ -240,26 +163,6 @@ def _soothed(fields: Fields, time: float) -> Soothed | None:
 def _trace(entry: Fields, time: float, lowest: float, highest: float) -> Trace:
     before, after = (entry.number(name, highest, lowest) for name in ("before", "after"))
     return Trace(before, after, entry.number("time", time))
-
-
-def _number(value: object, place: str, lowest: float, highest: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise HriError(f"{place} is not a number")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not lowest <= number <= highest:
-        raise HriError(f"{place} is {number:.6g}, not {lowest:g} to {highest:g}")
-    return number
-
-
-def _text(value: object, place: str) -> str:
-    if not isinstance(value, str):
-        raise HriError(f"{place} is not a text")
-    if not value.isascii() and value != value.encode("utf-8", "replace").decode("utf-8"):
-        raise HriError(f"{place} has halves of letters")
-    return value
 
 
 def _check_emotion(name: str, place: str) -> None:

@@ -12,18 +12,19 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NoReturn, TypeVar
+from typing import TypeVar
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
+from hri.core.json_fields import LATEST, fields_of
 from hri.core.ownership import require_of_user
 from hri.core.paths import exists
 from hri.core.privacy import folder_for, is_named, is_same_name
-from hri.core.reading import parse_json, read_text
+from hri.core.reading import read_text
 from hri.core.unusable_file import set_aside
 from hri.core.writing import PRIVATE, Mark, delete, leftovers, mark_of, write_text
 from hri.emotion.affect import Imprint, renamed, shifted
-from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
+from hri.emotion.imprint_file import decoded, encoded
 from hri.emotion.ledger import Origin
 from hri.emotion.relations import is_unnamed
 
@@ -92,11 +93,7 @@ def dump(memory: Memory) -> str:
 
 def parse(text: str) -> Memory:
     """A memory of its text. Raises HriError for what is damaged, or of another version."""
-    try:
-        data = parse_json(text, parse_constant=_refuse)
-    except ValueError as error:
-        raise HriError(f"no JSON: {error}") from error
-    fields = Fields(data, "the file")
+    fields = fields_of(text)
     if (schema := fields.value("schema")) != SCHEMA:
         raise HriError(f"it is of version {schema!r:.20}, not {SCHEMA}")
     memory = Memory(
@@ -111,10 +108,6 @@ def parse(text: str) -> Memory:
     if memory.imprint.time > memory.time:
         raise HriError("it mentions a time after it was written")
     return memory
-
-
-def _refuse(constant: str) -> NoReturn:
-    raise ValueError(f"{constant} is not a number")
 
 
 def recall(path: Path) -> Memory | None:
