@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from hri.conversation import GIVES_WAY_SECONDS, Scene, gives_way
+from hri.conversation import GIVES_WAY_SECONDS, gives_way
 from hri.robot import verbs
-from hri.speech import QUESTION, hears_people
+from hri.speech import hears_people
 from hri.task import TaskContext
 
 from .companion import Companion
@@ -13,31 +13,6 @@ from .replies import Question
 NOTICED_AFTER = 0.3
 """Seconds after which the ears know that someone has begun to speak."""
 LOOK_EVERY = 0.02
-
-
-def scene(companion: Companion, wondered: float) -> Scene:
-    """How things stand for who would begin to speak, and asked last at a time in seconds."""
-    context = companion.context
-    is_heard = bool(companion.listener.is_hearing.value)
-    is_claimed = context.manager.claims.holder("drive") is not None
-    return Scene(
-        now=context.clock.now(),
-        hour=context.clock.wall().hour,
-        is_asleep=companion.is_asleep,
-        is_quiet=not companion.may_speak,
-        is_voice_heard=is_heard or companion.is_held,
-        is_speaking=companion.talk.is_busy or not companion.voice.is_idle,
-        is_question_open=bool(context.board.slot(QUESTION).value),
-        is_driving=companion.motion.is_busy or is_claimed,
-        is_seen=companion.person() is not None,
-        understood=companion.last_contact,
-        voice=companion.last_voice,
-        puzzled=companion.puzzlement.last,
-        farewell=companion.last_farewell,
-        dialogue=companion.last_dialogue,
-        tender=companion.last_tender,
-        wondered=wondered,
-    )
 
 
 def next_question(companion: Companion) -> Question | None:

@@ -9,11 +9,15 @@ from typing import Any
 
 from hri.conversation import (
     NEVER,
+    NIGHT,
+    SPEAKER,
     Curiosity,
     Form,
+    Importance,
     Moment,
     Pool,
     Puzzlement,
+    Scene,
     Spoken,
     Texts,
     clock_words,
@@ -135,6 +139,7 @@ class Companion:
         for name in ("question.refused", "question.unanswered"):
             context.events.subscribe(name, self._give_up)
         context.events.subscribe("question.*", self._note_dialogue)
+        context.board.slot(SPEAKER).set(self, context.clock.now())
 
     def vocabulary(self) -> Vocabulary:
         """What its replies may use."""
@@ -222,7 +227,8 @@ class Companion:
             return
         if form.event:
             context.events.raise_event(form.event, **values)
-        words = self.perform(reply.form_task, values) or form.filled_in(form.done, values)
+        told = {**tags, **values}
+        words = self.perform(reply.form_task, told) or form.filled_in(form.done, values)
         if words:
             self.say(words)
 
@@ -387,6 +393,40 @@ class Companion:
         """One sentence for each command by its rule, those of the app's own grammar first."""
         grammar: Grammar = self.listener.loaded_grammar
         return {rule: examples[0] for rule, examples in sayings(grammar).items()}
+
+    # --- speaking up ---
+
+    def scene(self, wondered: float = NEVER) -> Scene:
+        """How things stand for who would begin to speak, and asked last at a time in seconds."""
+        context = self.context
+        is_heard = bool(self.listener.is_hearing.value)
+        is_claimed = context.manager.claims.holder("drive") is not None
+        return Scene(
+            now=context.clock.now(),
+            hour=context.clock.wall().hour,
+            quiet_hours=App.of(context).quiet_hours or NIGHT,
+            is_asleep=self.is_asleep,
+            is_quiet=not self.may_speak,
+            is_voice_heard=is_heard or self.is_held,
+            is_speaking=self.talk.is_busy or not self.voice.is_idle,
+            is_question_open=bool(context.board.slot(QUESTION).value),
+            is_driving=self.motion.is_busy or is_claimed,
+            is_seen=self.person() is not None,
+            understood=self.last_contact,
+            voice=self.last_voice,
+            puzzled=self.puzzlement.last,
+            farewell=self.last_farewell,
+            dialogue=self.last_dialogue,
+            tender=self.last_tender,
+            wondered=wondered,
+        )
+
+    async def say_unasked(self, context: TaskContext, words: str, importance: Importance) -> None:
+        """Say what nobody asked for just now; an alarm wakes it, and may be asked about."""
+        if importance is Importance.ALARM and self.is_asleep:
+            self.wake()
+        self._said_last = words
+        await verbs.say(context, words)
 
     # --- what its actions do ---
 

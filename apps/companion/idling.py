@@ -6,7 +6,6 @@ idle        looks about, hums, stretches, plays, yawns; dozes off, and wakes whe
 from __future__ import annotations
 
 from hri.conversation import (
-    NEVER,
     IdleAct,
     IdleActs,
     Idler,
@@ -21,7 +20,6 @@ from hri.robot import App, verbs
 from hri.speech import Priority
 from hri.task import Lane, TaskContext
 
-from .asking import scene
 from .companion import FOR_GOOD, Companion
 from .moving_by_feeling import express, may_move
 
@@ -97,7 +95,7 @@ class Idling:
     def _is_needed(self) -> bool:
         """Whether it is spoken to, speaks, moves, or sleeps, other than by an act."""
         companion = self._companion
-        around = scene(companion, NEVER)
+        around = companion.scene()
         is_driving = around.is_driving and not self._moves()
         is_speaking = companion.talk.is_busy or not (companion.voice.is_idle or self._sounds())
         is_busy = is_driving or is_speaking or companion.gestures.is_busy or companion.face.is_busy
@@ -117,7 +115,7 @@ class Idling:
         return is_spoken and str(event.properties["text"]).startswith("[")
 
     def _stillness(self, now: float) -> Stillness:
-        companion, around = self._companion, scene(self._companion, NEVER)
+        companion, around = self._companion, self._companion.scene()
         battery = self._context.resources.find(Battery)
         level = battery.level(now) if battery else 1.0
         return Stillness(

@@ -13,7 +13,6 @@ from hri.emotion import EmotionDisplay, ExpressiveMotion
 from hri.robot import verbs
 from hri.task import TaskContext
 
-from .asking import scene
 from .companion import Companion
 
 PLACE = "place"
@@ -60,7 +59,7 @@ async def pose(context: TaskContext) -> None:
 
 def may_move(companion: Companion) -> bool:
     """Whether nobody needs it to stand still."""
-    now = scene(companion, NEVER)
+    now = companion.scene()
     is_needed = now.is_voice_heard or now.is_question_open or now.is_driving
     return not (is_needed or now.is_asleep or companion.guard.must_wait)
 

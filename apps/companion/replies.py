@@ -306,7 +306,9 @@ def _read(
 
 
 def _is_silent(rule: str, vocabulary: Vocabulary) -> bool:
-    """Whether a rule is about a topic that the app leaves out; its reply may stay."""
+    """Whether the app leaves out a rule, or a skill replaces it; its reply may stay."""
+    if rule in vocabulary.app.replaced_rules:
+        return True
     known = vocabulary.grammar.rules.get(rule)
     return known is not None and not known.topics.isdisjoint(vocabulary.app.silent_topics)
 

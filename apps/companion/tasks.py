@@ -55,7 +55,7 @@ from .actions import (
     turn,
     wake,
 )
-from .asking import ask, next_question, scene
+from .asking import ask, next_question
 from .companion import Companion, authored_replies, vocabulary_of
 from .idling import authored_acts, idle
 from .moving_by_feeling import pose
@@ -205,7 +205,7 @@ async def wonder(context: TaskContext) -> None:
     wondered = NEVER
     while companion.replies.questions:
         await context.clock.sleep(0.5)
-        if not may_begin(scene(companion, wondered)):
+        if not may_begin(companion.scene(wondered)):
             continue
         if (question := next_question(companion)) is not None:
             wondered = context.clock.now()

@@ -169,6 +169,19 @@ def memories() -> list[bytes]:
     return [dump(Memory(affect.imprint, affect.time + 3.0, 1e9)).encode()]
 
 
+def alarms() -> list[bytes]:
+    """What a robot has promised to say."""
+    from hri.conversation.alarm_file import Contents, dump
+    from hri.conversation.alarms import AlarmKind, Alarms, Instant
+    from hri.core.clock import Uptime
+
+    at = Instant(1e9, Uptime(500.0, "one"))
+    promised = Alarms(at=at)
+    for kind, about, length in (("timer", "tea", 300.0), ("reminder", "call Ann", 0.0)):
+        promised.add(AlarmKind(kind), 1e9 + 300.0, about, length)
+    return [dump(Contents(promised.by_id, at, promised.last_id)).encode()]
+
+
 def relations() -> list[bytes]:
     """What an app remembers of people."""
     return _lines(

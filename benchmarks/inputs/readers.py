@@ -91,6 +91,7 @@ READERS: dict[str, Reader] = {
     ),
     "list of names": Reader(calls.names, good.names, "names.txt"),
     "list of a free slot": Reader(calls.known_names, good.known_names, "names.txt"),
+    "list of alarms": _named("hri.conversation.alarm_file:recall", good.alarms, "alarms.json"),
     "manifest": Reader(calls.manifest, good.manifests, "manifest.tsv"),
     "memory of feelings": _named("hri.emotion.persistence:recall", good.memories, "feelings.json"),
     "memory of people": _named(

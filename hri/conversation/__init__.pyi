@@ -1,4 +1,13 @@
 from .agreement import face_for as face_for, suits as suits
+from .alarm_keeper import ALARM_FILE as ALARM_FILE, AlarmKeeper as AlarmKeeper
+from .alarms import (
+    Alarm as Alarm,
+    AlarmKind as AlarmKind,
+    TooManyAlarms as TooManyAlarms,
+    length_words as length_words,
+    meant as meant,
+    when_words as when_words,
+)
 from .authored_event import read_event as read_event
 from .choosing import (
     Moment as Moment,
@@ -31,6 +40,8 @@ from .first_names import (
 from .floor import (
     GIVES_WAY_SECONDS as GIVES_WAY_SECONDS,
     NEVER as NEVER,
+    NIGHT as NIGHT,
+    Importance as Importance,
     Scene as Scene,
     gives_way as gives_way,
     may_begin as may_begin,
@@ -68,12 +79,14 @@ from .puzzlement import (
     Puzzlement as Puzzlement,
     as_said as as_said,
 )
-from .reflection import deed_of as deed_of, echo_of as echo_of
+from .reflection import deed_of as deed_of, echo_of as echo_of, turned as turned
 from .relations import (
     Relation as Relation,
     load_relations as load_relations,
     remembered_by as remembered_by,
     source_of as source_of,
 )
+from .ringing import ring as ring
 from .sentiment import sentiment_of as sentiment_of
+from .speaking_up import SPEAKER as SPEAKER, speak_up as speak_up
 from .spoken_text import check_text as check_text, fields_of as fields_of

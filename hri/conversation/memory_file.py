@@ -33,6 +33,7 @@ from hri.conversation.people import (
 )
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.folder_lock import locked_folder
 from hri.core.open_files import BINARY, MAY_RENAME_OPEN, NO_LINK
 from hri.core.ownership import require_of_user
 from hri.core.privacy import folder_for
@@ -122,7 +123,7 @@ def change(path: Path, edit: Callable[[Contents], Contents]) -> tuple[Contents, 
     Raises HriError, also for a file that cannot be used.
     """
     folder_for(path)
-    with _locked(path.parent):
+    with locked_folder(path.parent):
         before = recall(path)
         kept = edit(before or NOBODY)
         if kept.people != (before or NOBODY).people:
@@ -142,7 +143,7 @@ def traces(path: Path) -> list[Path]:
 
 def forget_all(path: Path) -> None:
     """Delete the file and what lies beside it (`traces`). Raises HriError."""
-    with _locked(path.parent):
+    with locked_folder(path.parent):
         for file in traces(path):
             with _overwriting(file):
                 delete(file)
@@ -385,30 +386,6 @@ def _not_kept(path: Path, error: sqlite3.Error) -> HriError:
     return HriError(
         f"{path}: cannot be written: {error} - make room on the disk, or check the path"
     )
-
-
-@contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """Keep other programs from changing a file of a folder meanwhile, where folders have locks.
-
-    Whoever has the lock gives it back within the time of a write.
-    """
-    try:
-        import fcntl
-    except ImportError:  # Windows, where no robot runs
-        yield
-        return
-    try:
-        handle = os.open(folder, os.O_RDONLY | BINARY)
-    except OSError:  # there is none
-        yield
-        return
-    try:
-        with suppress(OSError):  # a file system without locks
-            fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(handle)
 
 
 @contextmanager

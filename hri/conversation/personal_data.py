@@ -17,7 +17,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from hri.conversation import memory_file
+from hri.conversation import alarm_file, memory_file
 from hri.conversation.people import KnownPerson
 from hri.core import paths
 from hri.core.errors import HriError
@@ -133,6 +133,30 @@ class Memories(Kept):
 
     def delete(self, place: Path) -> None:
         memory_file.forget_all(place)
+
+
+class Promises(Kept):
+    """Timers, alarms and reminders, with what people are to be reminded of."""
+
+    about = "timers, alarms and reminders"
+
+    def places(self) -> list[Path]:
+        return [alarm_file.alarm_file()] if alarm_file.traces(alarm_file.alarm_file()) else []
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return any(_mentions(file, person) for file in alarm_file.traces(place))
+
+    def forget(self, place: Path, person: str) -> None:
+        """Of the file itself the entries with the name, of the files beside it the whole."""
+        beside = [file for file in alarm_file.traces(place) if file != place]
+        delete(*(file for file in beside if _mentions(file, person)))
+        try:
+            alarm_file.forget(place, person)
+        except HriError:
+            self.delete(place)
+
+    def delete(self, place: Path) -> None:
+        alarm_file.forget_all(place)
 
 
 class Exports(Kept):
@@ -421,8 +445,8 @@ class Telemetry(Kept):
 
 
 KEPT: tuple[Kept, ...] = (
-    Feelings(), Memories(), Exports(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(),
-    Colors(), Recordings(),
+    Feelings(), Memories(), Promises(), Exports(), Faces(), LookedUpWords(), OwnWords(), Devices(),
+    Objects(), Colors(), Recordings(),
     Captures("pictures", "a picture or film of the camera"),
     Captures("sounds", "a sound of the microphone"), Drafts(), Telemetry(),
 )  # fmt: skip

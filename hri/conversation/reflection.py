@@ -81,7 +81,7 @@ def echo_of(text: str, name: str = "") -> str:
     if not SECOND_CLAUSES.isdisjoint(words[start:]):
         return ""  # "He's laughing, do it again" says two things.
     tells = words[0] in TOLD_OF or (words[0] not in AT_HAND and words[1] in TOLD_VERBS)
-    return _turned([word for word in words if word not in SOUNDS]) if tells else ""
+    return turned([word for word in words if word not in SOUNDS]) if tells else ""
 
 
 def deed_of(text: str, name: str = "") -> str:
@@ -97,10 +97,10 @@ def deed_of(text: str, name: str = "") -> str:
     is_fit = 0 < len(deed) <= MOST_OF_DEED and deed[0] not in NO_DEEDS
     if not is_fit or not (begun or deed[0] in ORDERS):
         return ""
-    return "" if UNTURNED & set(deed[:-1]) else _turned(deed)
+    return "" if UNTURNED & set(deed[:-1]) else turned(deed)
 
 
-def _turned(words: Sequence[str]) -> str:
+def turned(words: Sequence[str]) -> str:
     """The same words, from the other side."""
     turned = []
     for number, word in enumerate(words):

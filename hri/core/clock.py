@@ -14,12 +14,14 @@ import math
 import sys
 import threading
 import time
+import uuid
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
 from typing import Generic, TypeVar
 
 import trio
@@ -41,6 +43,15 @@ CLUTTER = 100
 """Timers that may wait before those that were cancelled are cleared away."""
 FAKE_MORNING = datetime(2003, 6, 18, 10, 0)
 """What a fake clock shows when it starts."""
+
+
+@dataclass(frozen=True, slots=True)
+class Uptime:
+    """Seconds that go on whatever the wall clock is set to, also while the machine sleeps."""
+
+    seconds: float
+    boot: str
+    """What they are counted from: those of another start of the machine have another one."""
 
 
 @dataclass(order=True, slots=True)
@@ -108,6 +119,10 @@ class Clock(ABC):
         """Date and time of day on the wall clock. For words, and for how long the robot was
         switched off; never for arithmetic within a run.
         """
+
+    @abstractmethod
+    def uptime(self) -> Uptime:
+        """For arithmetic on what is kept from one run to the next."""
 
     async def drive(self) -> None:
         """Run the timers, for ever; started once, in the nursery of the robot loop."""
@@ -230,9 +245,25 @@ class Clock(ABC):
 
 def since_1970(clock: Clock) -> float:
     """Seconds since 1970, for people and other programs, as `Clock.wall` has them."""
-    wall = clock.wall()
+    return stamp_of(clock, clock.wall())
+
+
+def stamp_of(clock: Clock, wall: datetime) -> float:
+    """Seconds since 1970 at a time of the wall clock."""
     # What a fake clock shows is the same everywhere on earth.
     return (wall.replace(tzinfo=UTC) if clock.is_fake else wall).timestamp()
+
+
+def wall_of(clock: Clock, stamp: float) -> datetime:
+    """What the wall clock shows at a time in seconds since 1970."""
+    return datetime.fromtimestamp(stamp, UTC if clock.is_fake else None).replace(tzinfo=None)
+
+
+def _boot_id() -> str:
+    """The id of this start of the machine; where the system has none, of this clock."""
+    with suppress(OSError):
+        return Path("/proc/sys/kernel/random/boot_id").read_text("ascii").strip()
+    return uuid.uuid4().hex
 
 
 class RealClock(Clock):
@@ -243,6 +274,7 @@ class RealClock(Clock):
         super().__init__()
         self._source = source
         self._origin = source()
+        self._boot = _boot_id()
         # Only the time that passes by itself can be slept through.
         self._is_exact = source is time.perf_counter
 
@@ -251,6 +283,11 @@ class RealClock(Clock):
 
     def wall(self) -> datetime:
         return datetime.now()  # noqa: TID251 - this is the clock
+
+    def uptime(self) -> Uptime:
+        if hasattr(time, "CLOCK_BOOTTIME"):
+            return Uptime(time.clock_gettime(time.CLOCK_BOOTTIME), self._boot)
+        return Uptime(time.monotonic(), self._boot)  # noqa: TID251 - this is the clock
 
     def worker(self, latency: float) -> Worker[T]:
         return _ThreadWorker()
@@ -329,6 +366,9 @@ class FakeClock(Clock):
 
     def wall(self) -> datetime:
         return FAKE_MORNING + timedelta(seconds=self._now)
+
+    def uptime(self) -> Uptime:
+        return Uptime(self._now, str(id(self)))
 
     def worker(self, latency: float) -> Worker[T]:
         return _InlineWorker(self, latency)

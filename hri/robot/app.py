@@ -68,6 +68,9 @@ class App:
     """Names of tasks that an event starts, by its name, in which `*` stands for any characters."""
     silent_topics: tuple[str, ...] = ()
     """Topics of its grammar's rules, `@topic`, that it does not hear."""
+    quiet_hours: tuple[int, int] | None = None
+    """The hours of the day at which it begins and ends to say nothing by itself; None for the
+    usual ones."""
     base: Self | None = None
     """The app that it extends; what that one has is in the fields above, too."""
     skills: tuple[Self, ...] = ()
@@ -75,6 +78,8 @@ class App:
     off: tuple[OffSkill, ...] = ()
     """Skills of its line that are not plugged in."""
     is_skill: bool = False
+    replaces: tuple[str, ...] = ()
+    """Commands of small talk for which a skill has better ones."""
 
     @property
     def name(self) -> str:
@@ -150,8 +155,28 @@ class App:
                 if grammar is not None:
                     behavior.set_parameter("grammar", str(grammar))
                 behavior.set_parameter("skills", "\n".join(map(str, self.grammars_of_skills())))
+                behavior.set_parameter("silent_rules", " ".join(sorted(self.replaced_rules)))
         self._refuse_unknown_topics(networks)
+        self._refuse_to_replace_commands(networks)
         return networks
+
+    @property
+    def replaced_rules(self) -> frozenset[str]:
+        """What its skills have better commands for."""
+        return frozenset(rule for skill in self.all_skills() for rule in skill.replaces)
+
+    def _refuse_to_replace_commands(self, networks: list[Network]) -> None:
+        """No skill takes "stop" away: only what is about a topic of small talk may be replaced."""
+        listeners = [
+            one for part in networks for one in part.behaviors if isinstance(one, Listener)
+        ]
+        for skill in self.all_skills() if self.replaced_rules and listeners else ():
+            grammar = load_grammar(listeners[0].grammar)
+            topical = [key for key in grammar.public_rules if grammar.rules[key].topics]
+            for rule in skill.replaces:
+                if rule not in topical:
+                    what = f"no small talk is heard by the rule <{rule}>"
+                    raise load_toml(skill.file).error("replaces", what, did_you_mean(rule, topical))
 
     def _refuse_unknown_topics(self, networks: list[Network]) -> None:
         if not self.silent_topics:
@@ -324,6 +349,7 @@ def _load(folder: Path, above: tuple[str, ...], off: Mapping[str, str]) -> App:
     base = _base(table, folder, extends, (*above, folder.resolve().name), off) if extends else None
     own = table.strings("networks", *([[]] if base else []))
     app = _parts(table, folder, base, own)
+    app = replace(app, quiet_hours=_quiet_hours(table, app.quiet_hours))
     skills = read_skills(table, folder, off, partial(_skill, app))
     table.finish()
     found = _with_skills(app, skills.on)
@@ -342,6 +368,7 @@ def _parts(table: Table, folder: Path, base: App | None, networks: list[str]) ->
         _added(below.events, table.strings("events", [])),
         {**below.on, **_reactions(table)},
         _added(below.silent_topics, table.strings("silent_topics", [])),
+        below.quiet_hours,
         base,
     )
 
@@ -349,7 +376,8 @@ def _parts(table: Table, folder: Path, base: App | None, networks: list[str]) ->
 def _skill(app: App, folder: Path) -> App:
     """Read a skill. Raises HriError or AuthoringError."""
     table = load_toml(folder / SKILL, "skill")
-    skill = replace(_parts(table, folder, None, table.strings("networks", [])), is_skill=True)
+    parts = _parts(table, folder, None, table.strings("networks", []))
+    skill = replace(parts, is_skill=True, replaces=tuple(table.strings("replaces", [])))
     table.finish()
     _ = skill.module  # Python that fails must not wait for its first use.
     if skill.name in [one.name for one in app.line()]:
@@ -392,6 +420,20 @@ def _reactions(table: Table) -> dict[str, tuple[str, ...]]:
         is_list = isinstance(on.data[event], list)
         found[event] = tuple(on.strings(event) if is_list else [on.string(event)])
     return found
+
+
+def _quiet_hours(table: Table, usual: tuple[int, int] | None) -> tuple[int, int] | None:
+    """`[hours] quiet = [22, 6]`: two hours of the day, which are the same for none."""
+    if "hours" not in table:
+        return usual
+    hours = table.table("hours")
+    found = hours.numbers("quiet", count=2)
+    hours.finish()
+    if not all(hour in range(24) for hour in found):
+        remedy = "write when they begin and end, such as [22, 6], or [0, 0] for none"
+        raise hours.error("quiet", "quiet is not two hours from 0 to 23", remedy)
+    begins, ends = map(int, found)
+    return begins, ends
 
 
 def _grammar_of(app: App) -> Path | None:

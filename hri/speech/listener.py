@@ -114,6 +114,7 @@ class Listener(Behavior):
     skills = Param("", "paths of grammars whose commands count beside its own, a line each")
     robot_name = Param("", "what the robot is called; rules marked @name know it")
     silent_topics = Param("", "topics, @topic of rules, that are not heard; spaces between them")
+    silent_rules = Param("", "commands that are not heard, since a skill has better ones")
     strictness = Param(STRICTNESS, "confidence from which words count", minimum=0.0, maximum=1.0)
     follow_up = Param(
         FOLLOW_UP,
@@ -170,7 +171,7 @@ class Listener(Behavior):
         """What is understood; there once the behavior has started."""
         layer = self._grammars.in_force
         if layer is None or layer.heard is None:
-            return self._without_silent_topics(self._first)
+            return self._without_silent(self._first)
         return layer.heard
 
     def read_grammar(self) -> Grammar:
@@ -178,15 +179,15 @@ class Listener(Behavior):
 
         Raises HriError or AuthoringError when the file cannot be read.
         """
-        return self._without_silent_topics(self._read(paths.find("grammars", self.grammar)))
+        return self._without_silent(self._read(paths.find("grammars", self.grammar)))
 
     def _read(self, path: Path) -> Grammar:
         """A grammar file; that of its parameter with the commands of skills."""
         is_own = path == paths.find("grammars", self.grammar)
         return load_grammar(path, list(map(Path, self.skills.splitlines())) if is_own else ())
 
-    def _without_silent_topics(self, grammar: Grammar) -> Grammar:
-        return grammar.without_topics(self.silent_topics.split())
+    def _without_silent(self, grammar: Grammar) -> Grammar:
+        return grammar.without(self.silent_topics.split(), self.silent_rules.split())
 
     def use(self, grammar: str | Path) -> Layer:
         """Take another grammar, by name or path, in the place of the topmost one.
@@ -239,10 +240,10 @@ class Listener(Behavior):
         Where there is no other one, a grammar that the recognizer refuses serves for typed lines.
         """
         grammar = layer.grammar or self._read(layer.path)
-        heard = layer.prepare(self._without_silent_topics(grammar))
+        heard = layer.prepare(self._without_silent(grammar))
         for below in layer.below:
             other = below.grammar or self._read(below.path)
-            heard = with_interrupts_of(heard, self._without_silent_topics(other))
+            heard = with_interrupts_of(heard, self._without_silent(other))
         unheard = None
         heard = heard.called(self.robot_name)
         try:

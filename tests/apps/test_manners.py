@@ -76,7 +76,7 @@ def test_the_third_time_it_offers_what_can_be_said():
 
 
 def test_a_correction_is_answered_by_what_the_talk_is_about():
-    said = typed(9, {1.0: "remind me in ten minutes", 5.0: "make it twenty"}).said()
+    said = typed(9, {1.0: "call my mom", 5.0: "make it my dad"}).said()
     assert said[1] == "Got it, but I can't do that one. Sorry."
 
 

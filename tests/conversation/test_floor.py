@@ -14,6 +14,7 @@ from hri.conversation.floor import (
     NEVER,
     TENDER_SECONDS,
     UNSEEN_SECONDS,
+    Importance,
     Scene,
     gives_way,
     is_night,
@@ -143,3 +144,35 @@ def test_it_hums_to_itself_when_nothing_happens_and_someone_was_there():
 )
 def test_it_does_not_hum_into_anything(changes):
     assert not may_murmur(dataclasses.replace(STILL, **changes))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"is_driving": True}, {"understood": NEVER}, {"puzzled": 995.0}, {"wondered": 970.0}],
+)
+def test_news_wait_for_less_than_chat(changes):
+    assert not may_begin(changed(**changes))
+    assert may_begin(changed(**changes), Importance.NEWS)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"is_asleep": True}, {"is_quiet": True}, {"hour": 3}, {"dialogue": 995.0}, {"voice": 999.5}],
+)
+def test_an_alarm_waits_for_less_than_news(changes):
+    assert not may_begin(changed(**changes), Importance.NEWS)
+    assert may_begin(changed(**changes), Importance.ALARM)
+
+
+@pytest.mark.parametrize("name", ["is_voice_heard", "is_speaking", "is_question_open"])
+def test_not_even_an_alarm_talks_into_a_sentence(name):
+    assert not may_begin(changed(**{name: True}), Importance.ALARM)
+
+
+@pytest.mark.parametrize(
+    ("hours", "hour", "is_quiet"),
+    [((22, 6), 23, True), ((13, 15), 14, True), ((13, 15), 15, False), ((0, 0), 3, False)],
+)
+def test_quiet_hours_are_those_of_the_app(hours, hour, is_quiet):
+    scene = changed(quiet_hours=hours, hour=hour)
+    assert (why_silent(scene, Importance.NEWS) == "it is night") == is_quiet

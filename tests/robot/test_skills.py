@@ -125,3 +125,20 @@ def test_the_grammar_of_a_skill_has_its_place(app):
     assert found.grammars_of_skills() == [place / "grammar.jsgf"]
     assert found.skill_at(place / "grammar.jsgf").name == "a"
     assert found.skill_at(app / "app.toml") is None
+
+
+def test_the_hours_of_an_app_and_of_those_that_extend_it(app):
+    assert load_app(str(app)).quiet_hours is None
+    (app / "app.toml").write_text(WANDER + "[hours]\nquiet = [21, 7]\n")
+    assert load_app(str(app)).quiet_hours == (21, 7)
+    above = app.with_name("above")
+    above.mkdir()
+    (above / "app.toml").write_text(f'extends = "{app}"\n')
+    assert load_app(str(above)).quiet_hours == (21, 7)
+
+
+@pytest.mark.parametrize("quiet", ["[22]", "[22, 24]", "[6.5, 7]", "22", '["a", "b"]'])
+def test_hours_that_are_none_are_refused(app, quiet):
+    (app / "app.toml").write_text(WANDER + f"[hours]\nquiet = {quiet}\n")
+    with pytest.raises(AuthoringError, match="quiet"):
+        load_app(str(app))

@@ -44,20 +44,25 @@ class Grammar(Rules):
         rules = {key: replace(rule, is_public=key in keys) for key, rule in self.rules.items()}
         return replace(self, rules=rules)
 
-    def without_topics(self, topics: Collection[str]) -> Grammar:
-        """The same rules, where those about one of these topics are commands no more."""
-        silent = frozenset(topics) & self.topics
+    def without(self, topics: Collection[str], rules: Collection[str] = ()) -> Grammar:
+        """The same rules, where some, and those about one of these topics, are commands no more."""
+        silent = frozenset(
+            key
+            for key in self.public_rules
+            if {key, self.rules[key].stands_for} & frozenset(rules)
+            or self.rules[key].topics & frozenset(topics)
+        )
         if not silent:
             return self
-        # Kept, with all that is made of it, for whoever leaves out the same topics.
+        # Kept, with all that is made of it, for whoever leaves out the same.
         kept: dict[frozenset[str], Grammar] = self.made(_quieter)
         if silent not in kept:
-            rules = {
-                key: replace(rule, is_public=False) if rule.topics & silent else rule
+            found = {
+                key: replace(rule, is_public=False) if key in silent else rule
                 for key, rule in self.rules.items()
             }
             kept.clear()
-            kept[silent] = replace(self, rules=rules)
+            kept[silent] = replace(self, rules=found)
         return kept[silent]
 
     def called(self, name: str) -> Grammar:
