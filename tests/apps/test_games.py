@@ -1,0 +1,82 @@
+"""Games of the companion that watch the head: Simon says."""
+
+import pytest
+
+from hri.core import FakeClock
+from hri.robot import Robot
+from hri.speech.recognizers.typed import TypedRecognizer
+from hri.testing.dialogues import TYPED
+
+DEEDS = {"nod your head": "head.nodded", "shake your head": "head.shaken"}
+
+
+def ordered(said):
+    """What the last order of Simon says asks for."""
+    return next((deed for words, deed in DEEDS.items() if said.lower().endswith(f"{words}!")), "")
+
+
+def played(line, play):
+    """What the robot says after a line that begins a game.
+
+    `play` says what the person does then, a gesture such as `head.nodded`, or a line to type; the
+    game is over when it says None.
+    """
+    robot = Robot("companion", "simulated", clock=FakeClock(), devices=TYPED, seed=1)
+    keyboard = robot.resources.obtain("recognizer", TypedRecognizer)
+    said = []
+
+    def do(deed):
+        if deed.startswith("head."):
+            robot.events.raise_event(deed, person="")
+        elif deed:
+            keyboard.type_line(deed, robot.clock.now())
+
+    def respond(event):
+        said.append(event.properties["text"])
+        deed = play(said[-1])
+        if deed is None:
+            robot.finish()
+        else:
+            robot.clock.call_at(event.time + 1.0, lambda: do(deed))
+
+    robot.events.subscribe("speech.finished", respond)
+    robot.clock.call_at(1.0, lambda: do(line))
+    robot.live_until_over(*robot.app.load_tasks())
+    return said
+
+
+def play_simon(obeys):
+    """What is said when all those orders are obeyed."""
+
+    def play(words):
+        order = ordered(words)
+        return None if not order else order if obeys(words) else ""
+
+    return played("let's play simon says", play)
+
+
+def test_who_does_what_simon_says_alone_makes_no_mistake():
+    said = play_simon(lambda words: "Simon says: " in words)
+    assert said[5].endswith("The game is over, and you made no mistake!")
+    assert sum("Simon says: " in words for words in said) == 3
+    assert sum("Well done" in words for words in said) == 2
+
+
+def test_who_does_all_that_is_said_makes_two_mistakes():
+    said = play_simon(lambda words: True)
+    assert said[5].endswith("You made 2 mistakes, and I had fun!")
+    assert sum("Simon didn't say that" in words for words in said) == 2
+
+
+def test_simon_says_ends_when_no_gesture_can_be_seen():
+    said = play_simon(lambda words: False)
+    assert said[-1].startswith("I can't see your head move.")
+
+
+@pytest.mark.parametrize(
+    ("line", "last"),
+    [("i give up", "Okay, we can play again later."), ("what time is it", "It's 10:00 AM.")],
+)
+def test_words_end_simon_says_and_get_their_answer(line, last):
+    said = played("let's play simon says", lambda words: line if ordered(words) else None)
+    assert said[1:] == [last]
