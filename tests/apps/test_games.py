@@ -1,11 +1,13 @@
-"""Games of the companion that watch the head: Simon says."""
+"""Games of the companion that watch the head: Simon says, and the mirror."""
 
 import pytest
 
 from hri.core import FakeClock
 from hri.robot import Robot
 from hri.speech.recognizers.typed import TypedRecognizer
+from hri.testing import live_for
 from hri.testing.dialogues import TYPED
+from tests.apps.test_companion import SEEING
 
 DEEDS = {"nod your head": "head.nodded", "shake your head": "head.shaken"}
 
@@ -80,3 +82,18 @@ def test_simon_says_ends_when_no_gesture_can_be_seen():
 def test_words_end_simon_says_and_get_their_answer(line, last):
     said = played("let's play simon says", lambda words: line if ordered(words) else None)
     assert said[1:] == [last]
+
+
+def test_the_mirror_ends_when_nothing_is_seen_for_long():
+    said = played("copy me", lambda words: "" if "Nod" in words else None)
+    assert said[1:] == ["I see nothing more to copy. That was fun!"]
+
+
+def test_the_mirror_nods_when_the_person_nods():
+    robot = Robot("companion", "simulated", clock=FakeClock(), devices=SEEING, seed=1)
+    robot.visitor.say("copy me", after=1.0)
+    robot.events.subscribe("speech.finished", lambda event: robot.visitor.nod(after=0.5))
+    events = live_for(robot, 8.0, *robot.app.load_tasks())
+    assert [event.properties["name"] for event in events if event.name == "gesture.ended"] == [
+        "nod"
+    ]
