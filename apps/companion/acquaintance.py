@@ -5,6 +5,7 @@ Nothing is kept of anyone who did not allow it (`docs/memory.md`).
 
 acquaint       keeps the memory, and notices who comes and goes
 introduce, know_me, know_about_me, forget_that, forget_me   actions of replies
+ask_for        for the tasks of skills
 """
 
 from __future__ import annotations
@@ -224,10 +225,7 @@ async def _ask_about(
     asked = f"{words} {question.text}".strip()
     known.memory.note_asked(id, question.relation, question.value, question.text)
     if question.kind == "ask_for":
-        told = await _told(context, companion, known, question.relation, asked)
-        if told is not None:
-            known.note(told.rule, told.tags)
-            companion.reply(told.rule, told.command or told.text, dict(told.tags))
+        await _learn(context, companion, known, question.relation, asked)
         return
     answer = await verbs.ask(context, asked)
     if answer is None or known.memory.person(id) is None:
@@ -235,6 +233,38 @@ async def _ask_about(
     if question.kind == "ask" and not answer:
         known.memory.unlearn(id, question.relation, question.value)
     await verbs.say(context, companion.words("is_so" if answer else "is_not_so"))
+
+
+async def ask_for(
+    context: TaskContext, relation: str, question: str
+) -> Literal["told", "known", "unanswered", "stranger"]:
+    """Ask who talks for a fact, unless they told it before; what they tell is answered and kept.
+
+    Not an action of replies, but for tasks of skills, who get it by `App.of(context).task`.
+    """
+    companion, known = Companion.of(context), Acquaintance.of(context)
+    person = known.talker()
+    if person is None:
+        return "stranger"
+    if person.values(relation):
+        return "known"
+    known.memory.note_asked(person.id, relation, "", question)
+    if not await _learn(context, companion, known, relation, question):
+        return "unanswered"
+    await _after_the_reply(context, companion)
+    return "told"
+
+
+async def _learn(
+    context: TaskContext, companion: Companion, known: Acquaintance, relation: str, question: str
+) -> bool:
+    """Ask for a fact; whether it was told, and so is answered and kept."""
+    told = await _told(context, companion, known, relation, question)
+    if told is None:
+        return False
+    known.note(told.rule, told.tags)
+    companion.reply(told.rule, told.command or told.text, dict(told.tags))
+    return True
 
 
 async def _told(

@@ -32,6 +32,7 @@ from hri.task import TaskContext
 from .acquaintance import (
     Acquaintance,
     acquaint,
+    ask_for,
     check_memory,
     forget_me,
     forget_that,
@@ -67,6 +68,7 @@ from .things import find, forget, learn, see, where
 
 __all__ = [
     "acquaint",
+    "ask_for",
     "attend",
     "check",
     "come",
