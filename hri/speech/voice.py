@@ -110,6 +110,8 @@ class Voice(Behavior):
     is_speaking = Output[bool]("boolean", "whether a sound is going on")
     voice_id = Param("voice", "resource that makes sound of text")
     voice = Param("", "whose voice: a name, a language or a character (`hri voices`)")
+    rate = Param(1.0, "factor on the pace of all that it says", minimum=0.5, maximum=2.0)
+    volume = Param(1.0, "factor on the loudness of all that it says", minimum=0.1, maximum=4.0)
     speaker_id = Param("speaker", "resource that plays it")
     latency_s = Param(0.05, "time that making the sound takes on a fake clock", minimum=0.0)
 
@@ -262,7 +264,12 @@ class Voice(Behavior):
             return
         saying = self._making = self._queue.pop(0)
         prosody = saying.prosody or self.prosody.value or self._prosody
-        prosody = prosody if prosody.voice else replace(prosody, voice=self.voice)
+        prosody = replace(
+            prosody,
+            rate=prosody.rate * self.rate,
+            volume=prosody.volume * self.volume,
+            voice=prosody.voice or self.voice,
+        )
         if self._pronounced:
             sounds = (*self._pronounced.items(), *prosody.sounds)
             prosody = replace(prosody, sounds=sounds)

@@ -4,11 +4,12 @@ import pytest
 
 from apps.companion.skills.quiz.tasks import ANSWERS, QUESTIONS, read_questions
 from hri.core.errors import AuthoringError
-from hri.speech.behaviors import Listener
+from hri.speech.behaviors import Listener, Voice
 from hri.speech.grammar import load_grammar, parse
 from tests.apps.test_companion import Visit
-from tests.apps.test_manners import typing
+from tests.apps.test_manners import typed, typing
 
+SKILLS = ANSWERS.parents[1]
 TO_THINK = 1.0
 """Seconds."""
 
@@ -54,3 +55,21 @@ def test_a_mistake_in_the_questions_has_its_place(tmp_path):
     file.write_text("")
     with pytest.raises(AuthoringError, match="there are 0 questions - write 3 or more"):
         read_questions(file)
+
+
+def test_the_voice_gets_louder_and_faster_to_a_limit_and_is_its_own_again():
+    lines = ["set your volume to ten", "speak up", *["talk faster"] * 4, "speak like a robot"]
+    visit = typed(2.0 + 3 * len(lines), {1.0 + 3 * n: line for n, line in enumerate(lines)})
+    voice = visit.robot.context.behavior(Voice)
+    assert visit.said()[1] == "I can't talk any louder."
+    assert visit.said()[5] == "I can't talk any faster."
+    assert (voice.volume, voice.rate, voice.voice) == (2.0, 1.6, "robot")
+    lines = ["use another voice", "use another voice", "use your usual voice"]
+    visit = typed(11.0, {1.0 + 3 * n: line for n, line in enumerate(lines)})
+    assert visit.robot.context.behavior(Voice).voice == ""
+
+
+def test_orders_to_the_wheels_are_none_to_the_voice():
+    grammar = load_grammar(SKILLS / "voice" / "grammar.jsgf")
+    for line in ("faster", "slow down", "go a little faster", "louder music"):
+        assert parse(grammar, line) is None

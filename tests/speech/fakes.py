@@ -113,9 +113,11 @@ class CountingVoice(Synthesizer):
 
     def _open(self) -> None:
         self.sounds: list[tuple[tuple[str, tuple[str, ...]], ...]] = []
+        self.prosody = PLAIN
 
     def synthesize(self, text: str, prosody: Prosody = PLAIN) -> Speech:
         self.sounds.append(prosody.sounds)
+        self.prosody = prosody
         duration = 0.1 * len(text) / prosody.rate
         samples = np.zeros(round(duration * 1000), np.int16)
         return Speech(text, samples, 1000, (Phoneme("a", 0.0, duration),))

@@ -170,6 +170,17 @@ def test_prosody_shapes_the_speech():
     assert its_own.is_done
 
 
+def test_pace_loudness_and_voice_may_be_set_while_it_runs():
+    stage = Stage(Voice())
+    for name, value in {"rate": 2.0, "volume": 0.5, "voice": "deep"}.items():
+        stage.behavior.set_parameter(name, value)
+    said = stage.behavior.say("hello there", prosody=Prosody(rate=0.5, volume=0.5))
+    stage.run(0.1)
+    assert stage.voice.prosody == Prosody(rate=1.0, volume=0.25, voice="deep")
+    stage.run(1.5)
+    assert said.is_done
+
+
 def run_task(stage: Stage, seconds: float) -> None:
     """Let a task say something, cancelled after some seconds, while the behavior ticks."""
     lent = Context(stage.clock, EventBus(stage.clock), stage.resources)
