@@ -8,6 +8,7 @@ from .grammar import (
     parse as parse,
     read_grammar as read_grammar,
 )
+from .grammar.dates import resolve as resolve
 from .grammar.guessing import LEAST_SURE as LEAST_SURE, guess_rule as guess_rule
 from .grammar.matching import departure as departure
 from .grammar.slot_values import values_of as values_of
