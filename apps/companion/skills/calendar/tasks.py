@@ -1,11 +1,12 @@
 """A calendar: the day that was meant, and how far it is from today."""
 
 from collections.abc import Callable
-from datetime import date as Date
+from datetime import date as Date, timedelta
 
 from hri.speech import resolve
 from hri.task import TaskContext, immediate
 
+A_YEAR = timedelta(days=365)
 NO_DAY = "There's no such day in the calendar."
 
 
@@ -46,7 +47,7 @@ def _counted(day: Date, today: Date) -> str:
 
 
 def _in_words(day: Date, today: Date) -> str:
-    year = "" if day.year == today.year else f", {day.year}"
+    year = "" if abs(day - today) < A_YEAR else f", {day.year}"
     return f"{day:%A, %B} {day.day}{year}"
 
 
