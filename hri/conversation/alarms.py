@@ -26,6 +26,8 @@ JUMP = 1.0
 MINUTE, HOUR, DAY = 60, 3600, 86400
 MORNING = "09:00"
 """When a day is meant without a time."""
+HALVES = {"am": 0, "pm": 12}
+"""The hour at which each half of a day begins."""
 EARLIEST = 7
 """The hour of another day from which on the one before noon is meant: seven, but not six."""
 
@@ -165,8 +167,10 @@ def meant(text: str, at: datetime, earliest: int = EARLIEST) -> tuple[datetime, 
 def _on_the_wall(text: str, at: datetime, earliest: int) -> datetime:
     *before, clock = text.rsplit(" ", 1) if ":" in text else (text, MORNING)
     day = resolve(before[0], at.date()) if before else None
-    exact, is_open = clock.removesuffix("?"), clock.endswith("?")
-    first = time.fromisoformat(exact)
+    first, half = time.fromisoformat(clock[:5]), clock[5:]
+    is_open = half == "?"
+    if half in HALVES:
+        first = first.replace(hour=first.hour % 12 + HALVES[half])
     second = first.replace(hour=(first.hour + 12) % 24)
     is_either = is_open and first.hour <= 12
     if day is not None and day != at.date():

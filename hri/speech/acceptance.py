@@ -179,12 +179,18 @@ def _command(grammar: Grammar, found: Parse) -> str:
 def _as_specific(
     grammar: Grammar, found: Parse | None, rules: Collection[str], turn: Turn
 ) -> Iterator[Alternative]:
-    """Beside a phrase among other words, others that mean something else: all were said."""
+    """Beside a phrase among other words, others that mean something else: all were said.
+
+    Where all free words are those of a free slot of a command, it is not small talk.
+    """
     if found is None or not found.free:
         return
+    is_filled = bool(found.slots) and not found.around and not grammar.rules[found.rule].topics
     answers = grammar.marked("answer")
     is_answer = turn.is_question_open and found.rule in answers
     for other in meanings(grammar, found.as_typed, answers if is_answer else rules):
+        if is_filled and grammar.rules[other.rule].topics:
+            continue
         if not resolved(grammar, other, turn.last).means_the_same(found):
             yield Alternative(_command(grammar, other), 1.0)
 

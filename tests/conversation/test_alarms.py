@@ -93,6 +93,8 @@ def test_there_is_an_end_to_them() -> None:
         ("+1 06:30?", "tomorrow at 6:30 PM"),
         ("+1 07:00?", "tomorrow at 7:00 AM"),
         ("+1 12:00?", "tomorrow at noon"),
+        ("+0 06:00pm", "at 6:00 PM"),
+        ("+1 12:30am", "tomorrow at 12:30 AM"),
         ("monday 17:15", "on Monday at 5:15 PM"),
         ("--12-24", "on December 24 at 9:00 AM"),
     ],

@@ -344,3 +344,11 @@ def test_a_slot_that_loses_against_its_own_sound_is_asked_for_alone(write):
     )
     assert (rejection.sure, rejection.unsure) == ({"size": "large"}, ("milk",))
     assert judged(0.05, strictness=0.0).tags == {"size": "large", "milk": "oat"}
+
+
+def test_a_filled_free_slot_of_a_command_wins_over_small_talk_and_two_commands_are_a_doubt(write):
+    chat = "/** @topic fun */ public <chat> = how do you spell <any 1-2>;\n"
+    spell = "public <spell> = how do you spell <word.spoken 1-2>;\n"
+    assert reason(load_grammar(write(spell + chat)), "how do you spell cat") == "spell"
+    other = "public <write> = how do you spell <any 1-2>;\n"
+    assert reason(load_grammar(write(spell + other)), "how do you spell cat") == "low confidence"
