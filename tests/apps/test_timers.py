@@ -68,6 +68,8 @@ def test_a_timer_does_not_talk_into_a_question():
         (["set a timer for the rolls twelve minutes"], "Okay, 12 minutes for the rolls."),
         (["set a timer for ten minutes", "add five minutes to the timer"],
          "Okay, 15 minutes left."),
+        (["okay can you time eleven minutes for the pasta", "how much longer on that"],
+         "Your pasta timer has 11 minutes left."),
         (["cancel all timers"], "No timer is running."),
         (["how much time is left on the pizza timer"], "No pizza timer is running."),
         (["remind me yesterday to eat"], "I can only remind you at a time to come."),
