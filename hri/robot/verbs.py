@@ -67,7 +67,9 @@ ANSWERING = ("speech.heard", "speech.rejected", "head.*", *ROBOT_SPEAKS)
 SHOWN = "expression.override"
 """Slot of the board with the expression that is shown instead of the felt one."""
 LOOK_EVERY = 0.02
-"""Seconds between looks at whether a gesture has been made."""
+"""Seconds between looks at whether a gesture has been made, or a grammar is in force."""
+MOMENT = 2.0
+"""Seconds after which the grammar of a question has surely given way to the one below it."""
 
 
 async def show(context: TaskContext, label: str, seconds: float = 4.0) -> None:
@@ -214,17 +216,29 @@ async def ask_value(
 
     Without a `question` it asks by the name of the tag, "Which size?". Meanwhile the grammar is
     what gives that tag of the rule its value (`values_of`), also among other words; else as `ask`.
-    `doubted` are tags that were heard before and are not sure.
+    `doubted` are tags that were heard before and are not sure. Raises HriError for a rule that is
+    not in force.
     """
     asked = question or f"Which {in_words(tag)}?"
 
     def prepared(grammar: Grammar) -> Grammar:
         return answering(values_of(grammar, rule, tag))
 
-    path = str(context.behavior(Listener).loaded_grammar.path)
+    path = str((await _grammar_with(context, rule)).path)
     async with answers_of(context, path, prepared) as whole:
         answer_of = _HeardAnswer(values_of(whole, rule, tag), asked, doubted=doubted)
         return _answer(await _ask(context, asked, timeout, 0, answer_of))
+
+
+async def _grammar_with(context: TaskContext, rule: str) -> Grammar:
+    """The grammar in force; that of a question which was just answered is not in a moment."""
+    listener, end = context.behavior(Listener), context.clock.now() + MOMENT
+    while rule not in (grammar := listener.loaded_grammar).rules:
+        if context.clock.now() >= end:
+            known = grammar.public_rules
+            raise HriError(f"no command <{rule}> is heard - {did_you_mean(rule, known)}")
+        await context.clock.sleep(LOOK_EVERY)
+    return grammar
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractAsyncContextManager, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, NoReturn, Protocol, TypeVar
 
 from hri.behavior.behavior import Behavior
@@ -73,6 +74,8 @@ class TaskContext:
     """The task that this is lent to."""
     planned: Mapping[str, Behavior]
     """Behaviors by `network.id` of networks that have not been started yet."""
+    chance: random.Random = field(default_factory=random.Random)
+    """For what is drawn by lot; a run that is repeated draws the same again."""
 
     def lent_to(self, task: Task) -> TaskContext:
         """The same for another task."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Awaitable, Callable, Mapping
 from functools import partial
 from typing import Any
@@ -45,6 +46,7 @@ class TaskManager:
         self._hold_ups = HoldUpWatch(context)
         self.networks = Networks(context)
         """The networks that run beside the tasks."""
+        is_to_repeat = context.resources.is_to_repeat
         self.context = TaskContext(
             context.clock,
             context.events,
@@ -54,6 +56,7 @@ class TaskManager:
             self,
             Task(self, _main, ()),
             planned or {},
+            random.Random(context.seed_for("tasks") if is_to_repeat else None),
         )
         """What tasks are lent; each gets a copy with itself in it."""
 

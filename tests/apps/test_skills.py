@@ -148,3 +148,11 @@ def test_skills_that_are_broken_in_all_ways_are_off_with_a_line_and_the_companio
     visit = typed(8, {1.0: "wave well", 4.0: "hello"})
     assert visit.said()[0] == "Like this."
     assert len(visit.said()) == 2
+
+
+def test_what_skills_draw_by_lot_is_repeated_by_the_seed():
+    def drawn(seed):
+        robot = Robot("companion", "simulated", clock=FakeClock(), devices=TYPED, seed=seed)
+        return [robot.context.chance.randint(1, 6) for _ in range(20)]
+
+    assert drawn(1) == drawn(1) != drawn(2)

@@ -1,7 +1,5 @@
 """Charades: faces to guess, and questions with their own grammar."""
 
-import random
-
 from hri.core import Utterance
 from hri.robot import verbs
 from hri.task import Lane, TaskContext
@@ -16,8 +14,9 @@ LONGEST = 60.0
 async def play_charades(context: TaskContext) -> str | None:
     """Show three feelings; without an answer the game is over."""
     face, right = Lane(context), 0
+    feelings = context.chance.sample(FEELINGS, len(QUESTIONS))
     await verbs.say(context, "Look at my face!")
-    for question, feeling in zip(QUESTIONS, random.sample(FEELINGS, len(QUESTIONS)), strict=True):
+    for question, feeling in zip(QUESTIONS, feelings, strict=True):
         face.start(verbs.show, feeling, LONGEST)
         try:
             answer = await verbs.ask(context, question, grammar="feelings.jsgf", timeout=10.0)

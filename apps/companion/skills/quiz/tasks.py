@@ -1,8 +1,8 @@
 """A quiz: three questions of a file, whose answers a grammar hears."""
 
-import random
 from dataclasses import dataclass
 from pathlib import Path
+from random import Random
 
 from hri.core import Table, Utterance, load_toml
 from hri.robot import verbs
@@ -27,9 +27,9 @@ class Question:
     answer: str
     wrong: tuple[str, ...]
 
-    def aloud(self) -> str:
+    def aloud(self, chance: Random) -> str:
         """The question with its choices in a new order."""
-        *first, last = random.sample((self.answer, *self.wrong), len(self.wrong) + 1)
+        *first, last = chance.sample((self.answer, *self.wrong), len(self.wrong) + 1)
         return f"{self.ask}: {', '.join(first)} or {last}?"
 
 
@@ -57,20 +57,17 @@ QUESTIONS = read_questions()
 async def begin_quiz(context: TaskContext) -> str | None:
     """Ask some questions; what answers none of them ends the quiz."""
     right = 0
-    for question in random.sample(QUESTIONS, ASKED):
-        heard = await verbs.ask(context, question.aloud(), PATIENCE, str(ANSWERS), retries=1)
+    for question in context.chance.sample(QUESTIONS, ASKED):
+        asked = question.aloud(context.chance)
+        heard = await verbs.ask(context, asked, PATIENCE, str(ANSWERS), retries=1)
         if not isinstance(heard, Utterance):
             return None
         given = heard.tags.get("answer", "")
-        right += given == question.answer
-        await verbs.say(context, _verdict(given, question.answer))
+        is_right = given == question.answer
+        right += is_right
+        words = PASSED if not given else context.chance.choice(RIGHT if is_right else WRONG)
+        await verbs.say(context, words.format(question.answer))
     return _score(right)
-
-
-def _verdict(given: str, answer: str) -> str:
-    if given == answer:
-        return random.choice(RIGHT)
-    return (random.choice(WRONG) if given else PASSED).format(answer)
 
 
 def _score(right: int) -> str:

@@ -16,10 +16,10 @@ from hri.conversation import (
     turned,
     when_words,
 )
-from hri.core import Utterance
-from hri.robot import verbs
+from hri.robot.verbs import ask_value
 from hri.task import TaskContext
 
+DEED = "What do you want to do then?"
 UNSAVED = " But I can't save it, so please don't switch me off."
 
 
@@ -39,10 +39,10 @@ async def remind(context: TaskContext, when: str, deed: str = "", thing: str = "
     """Remind of something at a time; what it is may be left to be asked for."""
     keeper = AlarmKeeper.of(context)
     if not deed and not thing:
-        answer = await verbs.ask(context, "What do you want to do then?", grammar="deed")
-        if not isinstance(answer, Utterance):
+        answer = await ask_value(context, "remind", "deed", question=DEED)
+        if answer is None:
             return ""
-        deed = str(answer.tags["deed"])
+        deed = str(answer.tags["deed"]).removeprefix("to ")
     about = turned(deed.split()) if deed else f"think of your {thing}"
     try:
         due, length = meant(when, keeper.wall())

@@ -1,7 +1,5 @@
 """Simon says: orders to nod and to shake the head, of which only Simon's count."""
 
-import random
-
 from hri.core import Event
 from hri.robot import verbs
 from hri.speech import QUESTION
@@ -24,8 +22,8 @@ ENDINGS = ("yes", "no", "stop", "enough", "never_mind", "i_lost")
 async def play_simon(context: TaskContext) -> str | None:
     """Give five orders, and count the mistakes."""
     comment, mistakes, unseen = FIRST, 0, 0
-    for is_simon in [True, *random.sample(LATER, len(LATER))]:
-        order = random.choice(list(ORDERS))
+    for is_simon in [True, *context.chance.sample(LATER, len(LATER))]:
+        order = context.chance.choice(list(ORDERS))
         event = await _after(context, f"{comment} {_in_words(order, is_simon)}")
         done = _deed(event)
         if event is not None and not done:

@@ -1,5 +1,3 @@
-import random
-
 from hri.task import TaskContext, immediate
 
 SUITS = ("hearts", "spades", "diamonds", "clubs")
@@ -11,4 +9,4 @@ def draw_cards(context: TaskContext, count: float = 1) -> str:
     """Draw some cards; the robot says what this returns."""
     if not 1 <= count <= 5:
         return "I draw up to five cards."
-    return f"I drew {' and '.join(random.sample(CARDS, int(count)))}."
+    return f"I drew {' and '.join(context.chance.sample(CARDS, int(count)))}."
