@@ -48,7 +48,7 @@ def test_each_line_that_is_typed_gets_an_answer_and_none_twice():
 @pytest.mark.parametrize(
     ("line", "answer"),
     [
-        ("turn the pancake", "Something about turning? Say it another way, please."),
+        ("rotate the pancake", "Something about turning? Say it another way, please."),
         ("glue me to you", 'I don\'t know the word "glue" yet.'),
         ("go forwrd", 'I almost got that. Try "go forward".'),
         ("turn arround", 'I almost got that. Try "turn around".'),

@@ -16,7 +16,7 @@ from hri.conversation import (
     turned,
     when_words,
 )
-from hri.robot.verbs import ask_value
+from hri.robot import verbs
 from hri.task import TaskContext
 
 DEED = "What do you want to do then?"
@@ -39,7 +39,7 @@ async def remind(context: TaskContext, when: str, deed: str = "", thing: str = "
     """Remind of something at a time; what it is may be left to be asked for."""
     keeper = AlarmKeeper.of(context)
     if not deed and not thing:
-        answer = await ask_value(context, "remind", "deed", question=DEED)
+        answer = await verbs.ask_value(context, "remind", "deed", question=DEED)
         if answer is None:
             return ""
         deed = str(answer.tags["deed"]).removeprefix("to ")
