@@ -1,0 +1,164 @@
+"""Dialogues with forms, typed by people who have not seen the files:
+`python -m benchmarks.conversation.form_talks --out forms.txt`.
+
+The orders and meetings are those of `docs/forms.md`, the timers, alarms and reminders the skills of
+the companion. Each line comes when the robot has said all it says; null is silence. A time that is
+expected in words is for who reads the transcript; all else is compared.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from benchmarks.progress import progress
+from hri.bench.speech.listening import ONE_CORE
+from hri.bench.workers import variables, worker_pool
+from hri.conversation.alarm_keeper import AlarmKeeper
+from hri.core.clock import FakeClock
+from hri.core.paths import house
+from hri.core.signals import Event
+from hri.robot import Robot
+from hri.speech.behaviors import Listener, Voice
+from hri.task.context import TaskContext
+from hri.testing import live_for
+from hri.testing.dialogues import TYPED
+
+FOLDER = Path(__file__).parent / "forms"
+PAGE = "docs/forms.md"
+FILE = re.compile(
+    r"^`(\w+)/([\w.]+)`[^\n]*\n(?:[^`\n][^\n]*\n|\n)*```\w*\n(.*?)^```", re.DOTALL | re.MULTILINE
+)
+CALM = 2.0
+"""Seconds of silence after which a person says the next line."""
+PATIENCE = 12.0
+"""Seconds that someone says nothing."""
+LONGEST = 180.0
+"""Seconds after which a dialogue hangs."""
+NOTED = re.compile(r"(Monday|Tuesday|Wednesday) at (\d+)\?")
+
+
+@dataclass
+class Played:
+    """One dialogue, and how it went."""
+
+    form: str
+    says: Sequence[str | None]
+    expects: Mapping[str, Any] | None
+    why: str
+    transcript: list[str] = field(default_factory=list)
+    done: Mapping[str, Any] | None = None
+    hangs: bool = False
+
+    @property
+    def is_as_expected(self) -> bool:
+        """Whether that was done, times in words aside, which a reader compares."""
+        if self.hangs or (self.done is None) != (self.expects is None):
+            return False
+        done, expects = self.done or {}, self.expects or {}
+        return all(done.get(key) == value for key, value in expects.items() if key != "when")
+
+
+def play(dialogue: Mapping[str, Any]) -> Played:
+    """Play one to a fresh robot."""
+    found = Played(dialogue["form"], dialogue["says"], dialogue["expects"], dialogue["why"])
+    with TemporaryDirectory() as folder, variables(HRI_PATH=folder):
+        for name, file, text in FILE.findall((house() / PAGE).read_text()):
+            place = Path(folder, "skills", name)
+            place.mkdir(parents=True, exist_ok=True)
+            (place / file).write_text(text)
+        robot = Robot("companion", "simulated", clock=FakeClock(), devices=TYPED, seed=1)
+        events = live_for(
+            robot, LONGEST, *robot.app.load_tasks(), lambda one: _talk(one, found, robot)
+        )
+    found.hangs = robot.clock.now() >= LONGEST - 1.0
+    found.done = _done(found, robot, events)
+    return found
+
+
+async def _talk(context: TaskContext, found: Played, robot: Robot) -> None:
+    def note(event: Event) -> None:
+        found.transcript.append(f"robot: {event.properties['text']}")
+
+    context.events.subscribe("speech.said", note)
+    listener, voice = context.behavior(Listener), context.behavior(Voice)
+    for line in [*found.says, None]:
+        await _until_calm(context, voice)
+        if line is None:
+            found.transcript.append("(silence)")
+            await context.clock.sleep(PATIENCE)
+            continue
+        found.transcript.append(f"you: {line}")
+        listener.type_line(line)
+        await context.clock.sleep(0.5)
+    await _until_calm(context, voice)
+    robot.finish()
+
+
+async def _until_calm(context: TaskContext, voice: Voice) -> None:
+    silent = 0.0
+    while silent < CALM:
+        await context.clock.sleep(0.1)
+        silent = silent + 0.1 if voice.is_idle else 0.0
+
+
+def _done(found: Played, robot: Robot, events: Sequence[Event]) -> Mapping[str, Any] | None:
+    """What was done in the end; None for nothing."""
+    if found.form == "pizza":
+        orders = [event.properties for event in events if event.name == "pizza.ordered"]
+        return _order(orders[-1]) if orders else None
+    if found.form == "meeting":
+        questions = [match for line in found.transcript if (match := NOTED.search(line))]
+        is_noted = any("Noted" in line for line in found.transcript)
+        return {"day": questions[-1][1], "hour": float(questions[-1][2])} if is_noted else None
+    alarms = list(AlarmKeeper.of(robot.context).alarms)
+    if not alarms:
+        return None
+    last = alarms[-1]
+    return {
+        "duration": last.length,
+        "deed": last.about,
+        "when": f"{AlarmKeeper.of(robot.context).when(last):%H:%M}",
+    }
+
+
+def _order(properties: Mapping[str, Any]) -> dict[str, Any]:
+    toppings = properties["toppings"] or ()
+    return {"size": properties["size"], "toppings": list(toppings)}
+
+
+def main() -> None:
+    """Raises SystemExit with 1 when a dialogue hangs, or too few end as expected."""
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.conversation.form_talks", description=__doc__
+    )
+    parser.add_argument("--out", metavar="FILE", help="the transcript to write")
+    options = parser.parse_args()
+    dialogues = [
+        one for file in sorted(FOLDER.glob("*.json")) for one in json.loads(file.read_text())
+    ]
+    with variables(**ONE_CORE), worker_pool(os.cpu_count() or 1) as pool:
+        played = list(progress(pool.map(play, dialogues), len(dialogues), "dialogues"))
+    right = sum(one.is_as_expected for one in played)
+    hangs = sum(one.hangs for one in played)
+    if options.out:
+        Path(options.out).write_text("\n\n".join(map(_told, played)) + "\n")
+    print(f"{right} of {len(played)} end as expected ({right / len(played):.0%}), {hangs} hang")
+    raise SystemExit(hangs > 0 or right < 0.9 * len(played))
+
+
+def _told(one: Played) -> str:
+    mark = "as expected" if one.is_as_expected else "OTHERWISE"
+    head = f"--- {mark}: {one.form}, {one.why}\nexpected: {one.expects}\ndone: {one.done}"
+    return "\n".join([head, *one.transcript])
+
+
+if __name__ == "__main__":
+    main()
