@@ -29,13 +29,10 @@ from hri.robot import Robot
 from hri.speech.behaviors import Listener, Voice
 from hri.task.context import TaskContext
 from hri.testing import live_for
-from hri.testing.dialogues import TYPED
+from hri.testing.dialogues import TYPED, write_shown_files
 
 FOLDER = Path(__file__).parent / "forms"
 PAGE = "docs/forms.md"
-FILE = re.compile(
-    r"^`(\w+)/([\w.]+)`[^\n]*\n(?:[^`\n][^\n]*\n|\n)*```\w*\n(.*?)^```", re.DOTALL | re.MULTILINE
-)
 CALM = 2.0
 """Seconds of silence after which a person says the next line."""
 PATIENCE = 12.0
@@ -70,10 +67,7 @@ def play(dialogue: Mapping[str, Any]) -> Played:
     """Play one to a fresh robot."""
     found = Played(dialogue["form"], dialogue["says"], dialogue["expects"], dialogue["why"])
     with TemporaryDirectory() as folder, variables(HRI_PATH=folder):
-        for name, file, text in FILE.findall((house() / PAGE).read_text()):
-            place = Path(folder, "skills", name)
-            place.mkdir(parents=True, exist_ok=True)
-            (place / file).write_text(text)
+        write_shown_files(house() / PAGE, Path(folder, "skills"))
         robot = Robot("companion", "simulated", clock=FakeClock(), devices=TYPED, seed=1)
         events = live_for(
             robot, LONGEST, *robot.app.load_tasks(), lambda one: _talk(one, found, robot)
@@ -122,11 +116,8 @@ def _done(found: Played, robot: Robot, events: Sequence[Event]) -> Mapping[str, 
     if not alarms:
         return None
     last = alarms[-1]
-    return {
-        "duration": last.length,
-        "deed": last.about,
-        "when": f"{AlarmKeeper.of(robot.context).when(last):%H:%M}",
-    }
+    when = AlarmKeeper.of(robot.context).when_words(last)
+    return {"duration": last.length, "deed": last.about, "when": when}
 
 
 def _order(properties: Mapping[str, Any]) -> dict[str, Any]:

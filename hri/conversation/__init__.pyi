@@ -1,12 +1,11 @@
 from .agreement import face_for as face_for, suits as suits
 from .alarm_keeper import ALARM_FILE as ALARM_FILE, AlarmKeeper as AlarmKeeper
 from .alarms import (
+    FURTHEST as FURTHEST,
     Alarm as Alarm,
     AlarmKind as AlarmKind,
     TooManyAlarms as TooManyAlarms,
     length_words as length_words,
-    meant as meant,
-    when_words as when_words,
 )
 from .authored_event import read_event as read_event
 from .choosing import (

@@ -51,8 +51,9 @@ def recall(path: Path) -> Contents:
     if not os.path.lexists(path):
         return Contents()
     require_of_user(path, WHAT)
+    text = read_text(path, WHAT, LARGEST)
     try:
-        return _parsed(read_text(path, WHAT, LARGEST))
+        return _parsed(text)
     except HriError as error:
         raise HriError(f"{path}: {error}") from error
 

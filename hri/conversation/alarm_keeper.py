@@ -6,13 +6,19 @@ import logging
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from datetime import datetime
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
 
 from hri.conversation.alarm_file import Contents, alarm_file, change, recall
-from hri.conversation.alarms import Alarm, Alarms, Instant
+from hri.conversation.alarms import (
+    EARLIEST,
+    Alarm,
+    AlarmKind,
+    Alarms,
+    Instant,
+    meant,
+    when_words,
+)
 from hri.core.clock import Clock, Worker, since_1970, stamp_of, wall_of
 from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
@@ -21,7 +27,6 @@ from hri.core.unusable_file import put_aside
 from hri.core.writing import Mark, mark_of
 from hri.task.context import TaskContext
 
-T = TypeVar("T")
 LATENCY = 0.05
 """Seconds that writing takes on the fake clock."""
 LOOK_EVERY = 0.5
@@ -87,17 +92,21 @@ class AlarmKeeper:
         """Now, on both clocks."""
         return Instant(since_1970(self._clock), self._clock.uptime())
 
-    def wall(self) -> datetime:
-        """Now, on the wall."""
-        return self._clock.wall()
+    def promise(
+        self, kind: AlarmKind, when: str, about: str = "", earliest: int = EARLIEST
+    ) -> Alarm:
+        """Add one for a time as `hri.conversation.alarms.meant` reads it, not kept yet.
 
-    def stamp(self, when: datetime) -> float:
-        """Seconds since 1970 at a time on the wall."""
-        return stamp_of(self._clock, when)
+        Raises TooManyAlarms, or ValueError for a time that is not to come.
+        """
+        due, length = meant(when, self._clock.wall(), earliest)
+        # A night in which the clocks change has another number of hours on the wall.
+        stamp = since_1970(self._clock) + length if length else stamp_of(self._clock, due)
+        return self.alarms.add(kind, stamp, about, length)
 
-    def when(self, alarm: Alarm) -> datetime:
-        """The time on the wall at which it is due."""
-        return wall_of(self._clock, alarm.due)
+    def when_words(self, alarm: Alarm) -> str:
+        """When it is due, in words."""
+        return when_words(wall_of(self._clock, alarm.due), self._clock.wall())
 
     async def begin(self, alarm: Alarm) -> bool:
         """Note that it is about to be said; whether that is for the first time.

@@ -102,9 +102,9 @@ def deed_of(text: str, name: str = "") -> str:
 
 def turned(words: Sequence[str]) -> str:
     """The same words, from the other side."""
-    turned = []
+    found = []
     for number, word in enumerate(words):
         before = words[number - 1] if number else ""
         is_was = word == "was" and before in ("i", "we")
-        turned.append("were" if is_was else TURNED.get(word, word))
-    return " ".join(turned)
+        found.append("were" if is_was else TURNED.get(word, word))
+    return " ".join(found)

@@ -51,7 +51,7 @@ class Uptime:
 
     seconds: float
     boot: str
-    """What they are counted from: those of another start of the machine have another one."""
+    """The start of the machine from which they count; only those of one start compare."""
 
 
 @dataclass(order=True, slots=True)
@@ -358,7 +358,7 @@ class FakeClock(Clock):
 
     def __init__(self) -> None:
         super().__init__()
-        self._now = 0.0
+        self._now, self._boot = 0.0, uuid.uuid4().hex
         self._holds = 0
 
     def now(self) -> float:
@@ -368,7 +368,7 @@ class FakeClock(Clock):
         return FAKE_MORNING + timedelta(seconds=self._now)
 
     def uptime(self) -> Uptime:
-        return Uptime(self._now, str(id(self)))
+        return Uptime(self._now, self._boot)
 
     def worker(self, latency: float) -> Worker[T]:
         return _InlineWorker(self, latency)

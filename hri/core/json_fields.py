@@ -12,7 +12,7 @@ from hri.core.reading import parse_json
 T = TypeVar("T")
 
 LARGEST = 1e12
-"""No amount that comes from living is anywhere near."""
+"""No number in a list of one of these files comes near it."""
 LATEST = 1e12
 """Seconds; no clock shows more."""
 

@@ -5,7 +5,7 @@ checked.
 from __future__ import annotations
 
 import math
-from typing import Any, TypeVar
+from typing import Any
 
 from hri.core.errors import HriError, did_you_mean
 from hri.core.json_fields import LARGEST, LATEST, Fields
@@ -14,8 +14,6 @@ from hri.emotion.emotions import NAMES, PART_OF
 from hri.emotion.held import Held, Level
 from hri.emotion.label import MOODS, NOTHING
 from hri.emotion.ledger import Axes, LedgerRow, Origin
-
-T = TypeVar("T")
 
 
 def encoded(imprint: Imprint) -> dict[str, Any]:

@@ -172,11 +172,10 @@ class App:
         ]
         for skill in self.all_skills() if self.replaced_rules and listeners else ():
             grammar = load_grammar(listeners[0].grammar)
-            topical = [key for key in grammar.public_rules if grammar.rules[key].topics]
             for rule in skill.replaces:
-                if rule not in topical:
-                    what = f"no small talk is heard by the rule <{rule}>"
-                    raise load_toml(skill.file).error("replaces", what, did_you_mean(rule, topical))
+                if rule in grammar.public_rules and not grammar.rules[rule].topics:
+                    what = f"<{rule}> is a command, not small talk"
+                    raise load_toml(skill.file).error("replaces", what, "name one with @topic")
 
     def _refuse_unknown_topics(self, networks: list[Network]) -> None:
         if not self.silent_topics:

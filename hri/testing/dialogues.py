@@ -41,6 +41,9 @@ Who = Literal["you", "robot"]
 Line = tuple[Who, str]
 _BLOCK = re.compile(r"^```dialogue\n(.*?)^```", re.DOTALL | re.MULTILINE)
 _LINE = re.compile(r"(you|robot): (.+)")
+_FILE = re.compile(
+    r"^`(\w+)/([\w.]+)`[^\n]*\n(?:[^`\n][^\n]*\n|\n)*```\w*\n(.*?)^```", re.DOTALL | re.MULTILINE
+)
 
 
 @dataclass(frozen=True)
@@ -85,6 +88,17 @@ def _dialogue(page: Path, text: str, block: re.Match[str]) -> Dialogue:
             raise AuthoringError(Place(page, number), what, 'begin it with "you: " or "robot: "')
         lines.append(("you" if said[1] == "you" else "robot", said[2]))
     return Dialogue(Place(page, first), tuple(lines))
+
+
+def write_shown_files(page: Path, folder: Path) -> None:
+    """Write what a page shows below the names of files, such as `fortune/skill.toml`.
+
+    Raises HriError for a page that cannot be read.
+    """
+    for name, file, text in _FILE.findall(read_text(page, "page")):
+        place = folder / name
+        place.mkdir(parents=True, exist_ok=True)
+        (place / file).write_text(text, encoding="utf-8")
 
 
 def played(robot: Robot, dialogue: Dialogue) -> list[Line]:

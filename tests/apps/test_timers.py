@@ -37,7 +37,7 @@ def test_what_came_due_while_it_was_off_is_said_late_and_the_rest_at_its_time(tm
     second = kept(file, 12, {}, Later())
     assert second.said()[:2] == [
         "Sorry, I'm late: your tea timer was over 25 minutes ago.",
-        "Ring, ring! Good morning! It's time to get up.",
+        "Ring, ring! This is your alarm.",
     ]
     assert [event.properties["kind"] for event in second.named("alarm.rang")] == ["timer", "alarm"]
     assert kept(file, 4, {}, Later()).named("alarm.rang") == []
@@ -88,4 +88,4 @@ def test_a_skill_replaces_what_small_talk_says_and_nothing_else(tmp_path, monkey
     skill(tmp_path, "greedy", skill='about = "A."\nreplaces = ["stop"]\n')
     visit = typed(5, {1.0: "stop"}, notice=(notices := []).append)
     assert visit.heard() == ["stop"]
-    assert [line for line in notices if "no small talk is heard by the rule <stop>" in line]
+    assert [line for line in notices if "<stop> is a command, not small talk" in line]

@@ -7,15 +7,10 @@ import pytest
 from hri.core.clock import FakeClock
 from hri.core.paths import house
 from hri.robot import Robot
-from hri.testing.dialogues import TYPED, played, read_dialogues
+from hri.testing.dialogues import TYPED, played, read_dialogues, write_shown_files
 
 PAGE = house() / "docs" / "skills.md"
-
-
 FORMS = house() / "docs" / "forms.md"
-FILE = re.compile(
-    r"^`(\w+)/([\w.]+)`[^\n]*\n(?:[^`\n][^\n]*\n|\n)*```\w*\n(.*?)^```", re.DOTALL | re.MULTILINE
-)
 
 
 @pytest.fixture
@@ -25,9 +20,7 @@ def plugged_in(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
     def plug_in(page):
-        for name, file, text in FILE.findall(page.read_text()):
-            (tmp_path / "skills" / name).mkdir(parents=True, exist_ok=True)
-            (tmp_path / "skills" / name / file).write_text(text)
+        write_shown_files(page, tmp_path / "skills")
         return tmp_path / "skills"
 
     return plug_in

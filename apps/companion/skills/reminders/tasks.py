@@ -11,10 +11,8 @@ from hri.conversation import (
     AlarmKind,
     TooManyAlarms,
     length_words,
-    meant,
     ring,
     turned,
-    when_words,
 )
 from hri.robot import verbs
 from hri.task import TaskContext
@@ -45,13 +43,12 @@ async def remind(context: TaskContext, when: str, deed: str = "", thing: str = "
         deed = str(answer.tags["deed"]).removeprefix("to ")
     about = turned(deed.split()) if deed else f"think of your {thing}"
     try:
-        due, length = meant(when, keeper.wall())
-        keeper.alarms.add(AlarmKind.REMINDER, keeper.stamp(due), about, length)
+        reminder = keeper.promise(AlarmKind.REMINDER, when, about)
     except TooManyAlarms:
         return "I can't keep any more reminders. Cancel one first."
     except ValueError:
         return "I can only remind you at a time to come."
-    words = f"Okay, I'll remind you to {about} {when_words(due, keeper.wall())}."
+    words = f"Okay, I'll remind you to {about} {keeper.when_words(reminder)}."
     return words if await keeper.kept() else words + UNSAVED
 
 
@@ -59,7 +56,7 @@ async def ask_reminders(context: TaskContext) -> str:
     """Say all that it reminds of."""
     keeper = AlarmKeeper.of(context)
     found = [
-        f"{when_words(keeper.when(one), keeper.wall())} you want to {one.about}"
+        f"{keeper.when_words(one)} you want to {one.about}"
         for one in keeper.alarms.of(AlarmKind.REMINDER)
     ]
     if not found:

@@ -8,14 +8,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hri.conversation import (
+    FURTHEST,
     Alarm,
     AlarmKeeper,
     AlarmKind,
     TooManyAlarms,
     length_words,
-    meant,
     ring,
-    when_words,
 )
 from hri.task import TaskContext
 
@@ -24,7 +23,8 @@ EARLIEST_ALARM = 4
 SNOOZE = 540.0
 """Seconds."""
 UNSAVED = " But I can't save it, so please don't switch me off."
-NOT_YET = "I can only do that for a time to come."
+NOT_YET = "I can only do that for a time to come, within ten years."
+FULL = "I can't keep any more timers and alarms. Cancel one first."
 
 
 async def ring_timers(context: TaskContext) -> None:
@@ -35,8 +35,8 @@ async def ring_timers(context: TaskContext) -> None:
 def words_of(alarm: Alarm, late: float) -> str:
     """What is said of it, given how many seconds late."""
     if alarm.kind is AlarmKind.ALARM:
-        words = "Good morning! It's time to get up." if not alarm.about else alarm.about
-        return f"Sorry, I'm {length_words(late)} late. {words}" if late else f"Ring, ring! {words}"
+        begin = f"Sorry, I'm {length_words(late)} late." if late else "Ring, ring!"
+        return f"{begin} This is your alarm."
     name = name_of(alarm)
     if late:
         return f"Sorry, I'm late: {name} was over {length_words(late)} ago."
@@ -55,13 +55,12 @@ def name_of(alarm: Alarm) -> str:
 async def set_timer(context: TaskContext, duration: float, about: str = "") -> str:
     """Set a timer, beside those that run."""
     keeper = AlarmKeeper.of(context)
-    if duration <= 0:
-        return NOT_YET
     try:
-        due = keeper.instant().wall + duration
-        keeper.alarms.add(AlarmKind.TIMER, due, about, duration)
+        keeper.promise(AlarmKind.TIMER, f"in {duration}", about)
     except TooManyAlarms:
-        return "I can't keep any more timers. Cancel one first."
+        return FULL
+    except ValueError:
+        return NOT_YET
     of = f" for the {about}" if about else ""
     return f"Okay, {length_words(duration)}{of}." + await unsaved(keeper)
 
@@ -70,13 +69,12 @@ async def set_alarm(context: TaskContext, when: str) -> str:
     """Set an alarm, at a time or after one."""
     keeper = AlarmKeeper.of(context)
     try:
-        due, length = meant(when, keeper.wall(), EARLIEST_ALARM)
-        keeper.alarms.add(AlarmKind.ALARM, keeper.stamp(due), length=length)
+        alarm = keeper.promise(AlarmKind.ALARM, when, earliest=EARLIEST_ALARM)
     except TooManyAlarms:
-        return "I can't keep any more alarms. Cancel one first."
+        return FULL
     except ValueError:
         return NOT_YET
-    return f"Okay, I'll wake you {when_words(due, keeper.wall())}." + await unsaved(keeper)
+    return f"Okay, I'll wake you {keeper.when_words(alarm)}." + await unsaved(keeper)
 
 
 async def unsaved(keeper: AlarmKeeper) -> str:
@@ -98,7 +96,7 @@ async def ask_timers(context: TaskContext, about: str = "", is_alarm: bool = Fal
 def state_words(keeper: AlarmKeeper, alarm: Alarm) -> str:
     """How things stand with one, in a sentence."""
     if alarm.kind is AlarmKind.ALARM:
-        return f"your alarm is {when_words(keeper.when(alarm), keeper.wall())}"
+        return f"your alarm is {keeper.when_words(alarm)}"
     left = max(alarm.due - keeper.instant().wall, 1.0)
     return f"{name_of(alarm)} has {length_words(left)} left"
 
@@ -141,6 +139,8 @@ async def change_timer(
     (old,) = found
     wall = keeper.instant().wall
     due = wall + to if to else old.due + by
+    if not 0 < due - wall <= FURTHEST:
+        return NOT_YET
     length = due - wall if old.goes_with_the_clock else 0.0
     new = keeper.alarms.put(replace(old, due=due, length=length))
     if is_alarm:
@@ -151,9 +151,7 @@ async def change_timer(
 
 async def snooze(context: TaskContext, duration: float = SNOOZE) -> str:
     """Wake once more, in a while."""
-    keeper = AlarmKeeper.of(context)
-    keeper.alarms.add(AlarmKind.ALARM, keeper.instant().wall + duration, length=duration)
-    return f"Okay, {length_words(duration)} more." + await unsaved(keeper)
+    return await set_alarm(context, f"in {duration}")
 
 
 def all_of(keeper: AlarmKeeper) -> list[Alarm]:
