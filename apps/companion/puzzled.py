@@ -242,7 +242,7 @@ def _answers(companion: Companion, grammar: Grammar) -> list[str]:
     others = grammar.marked("interrupts")
     # What may be said around an answer belongs to other grammars.
     own = [rule for rule in grammar.public_rules if rule not in others and "." not in rule]
-    found = (text for rule in own for text in different(grammar, rule))
+    found = dict.fromkeys(text for rule in own for text in different(grammar, rule))
     return [as_said(text) for text in islice(found, 2)]
 
 

@@ -2,8 +2,8 @@
 `python -m benchmarks.conversation.form_talks --out forms.txt`.
 
 The orders and meetings are those of `docs/forms.md`, the timers, alarms and reminders the skills of
-the companion. Each line comes when the robot has said all it says; null is silence. A time that is
-expected in words is for who reads the transcript; all else is compared.
+the companion. Each line comes when the robot has said all it says; null is silence until it speaks
+again. A time that is expected in words is for who reads the transcript; all else is compared.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ PAGE = "docs/forms.md"
 CALM = 2.0
 """Seconds of silence after which a person says the next line."""
 PATIENCE = 12.0
-"""Seconds that someone says nothing."""
+"""Seconds after which nobody waits for its next words."""
 LONGEST = 180.0
 """Seconds after which a dialogue hangs."""
 NOTED = re.compile(r"(Monday|Tuesday|Wednesday) at (\d+)\?")
@@ -87,13 +87,20 @@ async def _talk(context: TaskContext, found: Played, robot: Robot) -> None:
         await _until_calm(context, voice)
         if line is None:
             found.transcript.append("(silence)")
-            await context.clock.sleep(PATIENCE)
+            await _until_it_speaks(context, found.transcript)
             continue
         found.transcript.append(f"you: {line}")
         listener.type_line(line)
         await context.clock.sleep(0.5)
     await _until_calm(context, voice)
     robot.finish()
+
+
+async def _until_it_speaks(context: TaskContext, transcript: Sequence[str]) -> None:
+    """Say nothing until it asks again, or gives up."""
+    before, end = len(transcript), context.clock.now() + PATIENCE
+    while len(transcript) == before and context.clock.now() < end:
+        await context.clock.sleep(0.1)
 
 
 async def _until_calm(context: TaskContext, voice: Voice) -> None:
