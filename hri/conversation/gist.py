@@ -15,7 +15,7 @@ from hri.speech.grammar.words import normalize
 LITTLE = NUMERALS.union((
     "a", "about", "again", "all", "also", "am", "an", "and", "another", "any", "are", "as", "at",
     "be", "because", "been", "bring", "but", "by", "can", "can't", "cannot", "could", "did",
-    "didn't", "do", "does", "doesn't", "don't", "ever", "for", "from", "get", "give", "going",
+    "didn't", "do", "does", "doesn't", "don't", "ever", "for", "from", "get", "give", "go", "going",
     "got", "had", "has", "have", "he", "he's", "her", "here", "hey", "him", "his", "how", "i",
     "i'd", "i'll", "i'm", "i've", "if", "in", "into", "is", "isn't", "it", "it's", "its", "just",
     "keep", "kindly", "know", "let", "let's", "like", "make", "may", "me", "mean", "meant",
@@ -32,7 +32,7 @@ LITTLE = NUMERALS.union((
 LEAST_SHARE = 0.5
 """Share of the telling words of a sentence that a rule must have to be the subject."""
 MOST_RULES = 3
-"""A word that more rules have does not tell one from another."""
+"""A word that more rules have does not tell one from another, unless it is in an example."""
 ENDINGS = ("ing", "ed", "s")
 
 
@@ -66,7 +66,7 @@ class Gist:
         spread = Counter(stem for words in stems.values() for stem in words)
         rare = {stem for stem, count in spread.items() if count <= MOST_RULES}
         return cls(
-            {rule: words & rare for rule, words in stems.items()},
+            {rule: words & (rare | _first_example(grammar, rule)) for rule, words in stems.items()},
             frozenset().union(*every.values()),
             frozenset().union(*known.values()),
         )
@@ -92,6 +92,11 @@ class Gist:
     def strange(self, text: str) -> list[str]:
         """The words of a text that no rule has, in order."""
         return [word for word in dict.fromkeys(normalize(text)) if word not in self.known | LITTLE]
+
+
+def _first_example(grammar: Rules, rule: str) -> set[str]:
+    """What a rule is about in any case: "turn left" is about turning, whatever else is turned."""
+    return {stem(word) for text in grammar.rules[rule].examples[:1] for word in normalize(text)}
 
 
 def stem(word: str) -> str:

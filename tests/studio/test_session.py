@@ -300,6 +300,9 @@ EXAMPLES = {
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_each_command_is_obeyed_and_told(client, robot, command):
+    if command == "network_tick":
+        paused = {"name": "feeling", "on": True}
+        assert client.post("/api/v1/network_pause", json=paused).status_code == 200
     asked = []
     listening = robot.events.subscribe("studio.asked", asked.append)
     arguments = EXAMPLES.get(command, {})
