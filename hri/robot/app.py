@@ -170,8 +170,10 @@ class App:
         listeners = [
             one for part in networks for one in part.behaviors if isinstance(one, Listener)
         ]
-        for skill in self.all_skills() if self.replaced_rules and listeners else ():
-            grammar = load_grammar(listeners[0].grammar)
+        if not self.replaced_rules or not listeners:
+            return
+        grammar = load_grammar(listeners[0].grammar)
+        for skill in self.all_skills():
             for rule in skill.replaces:
                 if rule in grammar.public_rules and not grammar.rules[rule].topics:
                     what = f"<{rule}> is a command, not small talk"

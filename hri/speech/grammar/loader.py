@@ -223,6 +223,8 @@ class _Loader:
         self._sources: list[tuple[Path, str | Expression]] = []
         self._root = Path()
         """The folder of the main file."""
+        self._found: dict[tuple[Path, str], Path | None] = {}
+        """Where the grammars are that files name: a name is mostly met many times."""
 
     def load(self, path: Path, beside: Sequence[Path]) -> tuple[Grammar, list[AuthoringError]]:
         self._root = path.parent
@@ -378,9 +380,15 @@ class _Loader:
                 if key not in keys:
                     keys.append(key)
 
+    def _find(self, file: _File, grammar: str) -> Path | None:
+        key = (file.document.path, grammar)
+        if key not in self._found:
+            self._found[key] = _find_grammar(file.document, grammar, self._root)
+        return self._found[key]
+
     def _open(self, file: _File, grammar: str, is_heard: bool = False) -> _File | None:
         """The file of a grammar, read when it is a new one; None when there is none."""
-        path = _find_grammar(file.document, grammar, self._root)
+        path = self._find(file, grammar)
         if path is None:
             return None
         known = self._files.get(path.resolve())
@@ -485,7 +493,7 @@ class _Loader:
         grammar, _, rule = name.rpartition(".")
         if name in file.imported or (file.document.name == grammar and rule in file.own):
             return True
-        path = _find_grammar(file.document, grammar, self._root)
+        path = self._find(file, grammar)
         if path is None or " " in name:
             return False
         try:

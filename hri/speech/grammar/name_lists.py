@@ -14,6 +14,7 @@ What is heard sets a tag of the rule's name, here `friend`, to the line's value:
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 
 from hri.core.errors import AuthoringError, Place
@@ -33,6 +34,8 @@ MOST_NAMES = 100_000
 """Lines with a name in one file."""
 LONGEST_NAME = 200
 """Characters of one line."""
+MOST_LISTS = 20
+"""Lists of what free slots usually are that are kept, until their text changes."""
 MOST_ERRORS = 100
 """Most mistakes reported for one file."""
 
@@ -66,12 +69,17 @@ def read_names(path: Path, tag: str) -> tuple[Expression, list[AuthoringError]]:
     return Alternative(tuple(choices), (1.0,) * len(choices), whole), errors
 
 
-def read_known(path: Path) -> tuple[tuple[str, ...], list[AuthoringError]]:
+def read_known(path: Path) -> tuple[tuple[str, ...], tuple[AuthoringError, ...]]:
     """What a free slot usually is: the lower case words of each line, each once, and the mistakes.
 
     Raises HriError when it cannot be read, AuthoringError when it is not UTF-8 text.
     """
-    text = read_text(path, "list of names")
+    return _known(read_text(path, "list of names"), path)
+
+
+@lru_cache(maxsize=MOST_LISTS)
+def _known(text: str, path: Path) -> tuple[tuple[str, ...], tuple[AuthoringError, ...]]:
+    """Most grammars are read again and again with the same lists, which are long."""
     errors: list[AuthoringError] = []
     known: dict[str, None] = {}
     for number, column, line in _lines(text):
@@ -91,7 +99,7 @@ def read_known(path: Path) -> tuple[tuple[str, ...], list[AuthoringError]]:
             break
     if not known and not errors:
         errors.append(AuthoringError(Place(path), "no name in this list", "write one a line"))
-    return tuple(known), errors
+    return tuple(known), tuple(errors)
 
 
 def _is_new(known: dict[str, tuple[Value, int]], name: str, value: Value, line: int) -> bool:
