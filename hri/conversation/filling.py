@@ -3,37 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from hri.conversation.form_grammar import SLOT, YES, form_grammar
 from hri.conversation.forms import NOTHING, Form
-from hri.core import paths
 from hri.core.signals import Utterance
-from hri.robot.verbs import Ending, ask_in_force, in_words, say
-from hri.speech.answering import AFTER, CANCEL, CORRECTING, answering
+from hri.robot.verbs import Ending, ask_in_force, say
 from hri.speech.behaviors import Listener, Voice
-from hri.speech.grammar import Grammar, Rule, load_grammar
-from hri.speech.grammar.expressions import (
-    Alternative,
-    Expression,
-    Optional,
-    RuleReference,
-    Sequence,
-    Tagged,
-    Token,
-)
-from hri.speech.grammar.framing import framed
-from hri.speech.grammar.merging import with_parts_of
-from hri.speech.grammar.tags import TagEntry
 from hri.speech.tasks import answers_of
 from hri.task.context import TaskContext
 
-YES, NO = "answers.yes", "answers.no"
-SLOT = "form.slot"
-"""The rule of what names a slot that is to be asked for again."""
-CHANGING = ("change", "i want to change", "i'd like to change", "can we change")
-"""What may be said before the name of a slot."""
 BREATH = 0.3
 """Seconds in which it begins to answer what else was said, and between looks at its voice."""
 
@@ -120,43 +100,3 @@ def _is_interrupted(context: TaskContext) -> bool:
 
 def _is_yes(answer: bool | Utterance) -> bool:
     return answer is True or (isinstance(answer, Utterance) and answer.rule == YES)
-
-
-def form_grammar(form: Form, grammar: Grammar) -> Grammar:
-    """The grammar of a form as it is heard.
-
-    It has yes and no, words that correct an answer, and the names of slots: "change the size".
-    """
-    found = with_parts_of(grammar, load_grammar(paths.house() / "grammars" / "answers.jsgf"))
-    rules = dict(found.rules)
-    for key in (YES, NO):
-        rules[key] = replace(rules[key], is_public=True)
-    asked = answering(replace(found, rules=rules), CORRECTING)
-    if CANCEL not in asked.rules:  # another language
-        return asked
-    own = {key: asked.rules[key] for key in grammar.public_rules}
-    # "Never mind" is also a no, to a question of yes or no alone.
-    first = {**own, SLOT: _slots(form, own), CANCEL: asked.rules[CANCEL]}
-    return replace(asked, rules={**first, **asked.rules})
-
-
-def _slots(form: Form, rules: Mapping[str, Rule]) -> Rule:
-    """The rule of what names a slot: "change the size", "the size"."""
-    like = next(iter(rules.values()))
-    span = like.span
-
-    def words(text: str) -> Expression:
-        return Sequence(tuple(Token(word, span) for word in text.split()), span)
-
-    def any_of(*choices: Expression) -> Expression:
-        return Alternative(choices, (1.0,) * len(choices), span)
-
-    names = [
-        Tagged(words(in_words(slot.name)), (TagEntry("slot", "=", slot.name),), span)
-        for slot in form.slots
-    ]
-    before = Optional(any_of(*map(words, CHANGING)), span)
-    row = (before, Optional(any_of(words("the"), words("my")), span), any_of(*names))
-    around = (RuleReference(key, span) for key in (CORRECTING, AFTER))
-    expression = framed(Sequence(row, span), *around)
-    return replace(like, key=SLOT, expression=expression, is_public=True, doc_tags=())

@@ -3,7 +3,6 @@
     [form.pizza]
     grammar = "pizza"                # its tags are the slots; the file lies beside this one
     confirm = "Shall I order a {size} pizza with {toppings}?"
-    change = "What should I change?"
     done = "I ordered it."
     event = "pizza.ordered"          # raised with the slots; `action` names a task that takes them
 
@@ -34,9 +33,12 @@ from hri.core import paths
 from hri.core.errors import HriError, Mistakes, did_you_mean
 from hri.core.toml import Table, load_toml
 from hri.speech.grammar import load_grammar
+from hri.speech.language import is_other_language
 
 NOTHING = ""
 """Value of a slot that is to stay empty."""
+CHANGE = "What should I change?"
+"""Asked after a no where nothing else is to be asked."""
 TURNS_EACH = 3
 """Turns for each slot, after which a form is given up."""
 
@@ -63,7 +65,7 @@ class Form:
     confirm: str = ""
     """Asked in the end; empty to do it at once."""
     change: str = ""
-    """Asked after a no; empty to end there."""
+    """Asked after a no; empty to end there. Unless said, CHANGE for several slots in English."""
     done: str = ""
     refused: str = ""
     """Said after a last no."""
@@ -116,12 +118,16 @@ def load_forms(files: Sequence[Path]) -> dict[str, Form]:
 
 def _form(name: str, entry: Table) -> Form:
     path = _grammar(entry, entry.string("grammar", name))
-    tags = load_grammar(path).tag_names()
+    grammar = load_grammar(path)
+    tags = grammar.tag_names()
     slots = tuple(_slot(one, tags) for one in entry.array("slot"))
     if not slots:
         raise entry.error(None, f"the form {name} has no slot", f"add [[form.{name}.slot]]")
     names = [slot.name for slot in slots]
-    texts = {key: entry.string(key, "") for key in ("confirm", "change", "done", "refused")}
+    texts = {key: entry.string(key, "") for key in ("confirm", "done", "refused")}
+    # Who says no to a form of one slot may say the other value at once.
+    is_asked = bool(texts["confirm"]) and len(slots) > 1 and not is_other_language(grammar)
+    texts["change"] = entry.string("change", CHANGE if is_asked else "")
     for key, text in texts.items():
         check_text(entry, text, names, key)
     event, action = read_event(entry), entry.string("action", "")

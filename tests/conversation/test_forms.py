@@ -2,7 +2,7 @@
 
 import pytest
 
-from hri.conversation.filling import form_grammar
+from hri.conversation.form_grammar import form_grammar
 from hri.conversation.forms import NOTHING, load_forms
 from hri.core.errors import AuthoringError
 from hri.speech.grammar import load_grammar, parse
@@ -21,7 +21,7 @@ ask = "Which size?"
 [[form.pizza.slot]]
 name = "toppings"
 ask = "With which toppings?"
-none = "nothing"
+none = "nothing on it"
 """
 FORM = '[form.pizza]\nconfirm = "A {size} pizza with {toppings}?"\n' + SLOTS
 
@@ -54,7 +54,7 @@ def test_the_first_slot_that_is_empty_is_asked_for(pizza):
         (("olives",), "olives"),
         (("olives", "bacon"), "olives and bacon"),
         (("olives", "bacon", "corn"), "olives, bacon and corn"),
-        (NOTHING, "nothing"),
+        (NOTHING, "nothing on it"),
         (2.0, "2"),
     ],
 )
@@ -90,12 +90,20 @@ def test_a_mistake_has_its_place(load, text, what):
         ("no wait make it small with olives", "pizza", {"size": "small", "toppings": ("olives",)}),
         ("sorry i meant bacon", "pizza", {"toppings": ("bacon",)}),
         ("actually large", "pizza", {"size": "large"}),
+        ("medium no wait large", "pizza", {"size": "large"}),
+        ("sorry medium no make it large please", "pizza", {"size": "large"}),
+        ("the size should be large", "pizza", {"slot": "size", "size": "large"}),
+        ("no the size it's small", "pizza", {"slot": "size", "size": "small"}),
+        ("no toppings", "form.empty", {"toppings": ""}),
+        ("nothing on it thanks", "form.empty", {"toppings": ""}),
         ("change the size", "form.slot", {"slot": "size"}),
         ("the toppings please", "form.slot", {"slot": "toppings"}),
         ("yes please", "answers.yes", {}),
         ("no", "answers.no", {}),
         ("nothing", "answers.no", {}),
         ("never mind", "asking.cancel", {}),
+        ("hmm you know what never mind", "asking.cancel", {}),
+        ("oh never mind about the pizza we already ate", "asking.cancel", {}),
         ("what did you say", "asking.again", {}),
     ],
 )
