@@ -8,12 +8,10 @@ another motion starts. People come from the board's slot "people".
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
 
-from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.geometry import after_move, wrapped
 from hri.core.signals import Event, People, Pose2D, Twist
@@ -58,8 +56,6 @@ NEARER = 0.1
 """Meters that count as nearer."""
 LEAST_WAY = 0.3
 """Meters; a way that is narrower than this is not one that someone left for a robot."""
-THINKING_S = 0.1
-"""Seconds between two looks whether it knows yet why it did not get somewhere."""
 SEARCH_RATE = 0.6
 """Radians a second while it looks around: slow enough to see faces on the way."""
 
@@ -381,7 +377,7 @@ class _Traveler:
         """Why it did not get to a goal, and the remedy."""
         what = f"did not get to ({goal.x:.2f}, {goal.y:.2f}) m"
         pose, needed = self.pose(context.clock.now()), self._avoidance.needed
-        width = await _worked_out(context, partial(self._avoidance.narrow_way, pose, goal))
+        width = await context.blocking(self._avoidance.narrow_way, pose, goal)
         if not LEAST_WAY <= width < needed:
             return f"{what} - clear the way"
         wide = f"a way there is about {width:.2f} m wide, and I need {needed:.2f} m"
@@ -392,18 +388,6 @@ class _Traveler:
         """The newest of what the camera says."""
         people: People | None = self._slot.value
         return people
-
-
-async def _worked_out(context: TaskContext, job: Callable[[], float]) -> float:
-    """What a job comes to that would hold the robot loop up."""
-    worker: Worker[float] = context.clock.worker(THINKING_S)
-    worker.submit(job)
-    try:
-        while not (found := worker.poll()):
-            await context.clock.sleep(THINKING_S)
-    finally:
-        worker.close()
-    return found[0]
 
 
 @contextmanager

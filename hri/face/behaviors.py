@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.effects import NOTHING
@@ -18,7 +18,7 @@ from hri.face.animator import Animator
 from hri.face.drawing.baking import Vector
 from hri.face.lips.lip_player import PICTURE_LEAD
 from hri.face.live_link import WeightWriter, read_weights
-from hri.face.model import load_face
+from hri.face.model import FaceModel, load_face
 from hri.face.motion import idle
 from hri.face.motion.gesture_player import Playing
 from hri.face.motion.gesture_tracks import load_gestures
@@ -50,8 +50,8 @@ class Face(Behavior):
     """Animates a face: mood, expression, lips, blinks, gaze and gestures become weights.
 
     Impossible requests, such as an unknown expression, raise the event `face.refused`; the face
-    stays as it was. Raises `gesture.started` and `gesture.ended`, and makes the gesture of an event
-    `gesture.asked` (`name`, `strength`, `seconds`).
+    stays as it was. Raises `face.changed`, `gesture.started` and `gesture.ended`, and makes the
+    gesture of an event `gesture.asked` (`name`, `strength`, `seconds`).
     """
 
     category = "face"
@@ -94,16 +94,19 @@ class Face(Behavior):
 
     def start(self, context: Context) -> None:
         """Raises HriError when the face or its gestures cannot be read."""
-        model = load_face(self.face)
-        self._animator = Animator(model, context.seed_for("face"), self.latency)
+        self._seed = context.seed_for("face")
         self._events = context.events
         self._refusals = Refusals(context.events)
-        self._expression = Expression()
-        self._mood: Mood = None, None
         self._speech: Speech | None = None
         self._gesture: str | None = None
         self._playing: Playing | None = None
+        self._animate(load_face(self.face))
         self._subscription: Subscription = context.events.subscribe("gesture.asked", self._on_asked)
+
+    def _animate(self, model: FaceModel) -> None:
+        self._animator = Animator(model, self._seed, self.latency)
+        self._expression = Expression()
+        self._mood: Mood = None, None
 
     def compute(self, now: float, dt: float) -> None:
         animator = self._animator
@@ -132,6 +135,18 @@ class Face(Behavior):
 
     def stop(self) -> None:
         self._subscription.cancel()
+
+    def change(self, name: str, model: FaceModel) -> None:
+        """Be another face from the next tick on; a gesture that is being made ends.
+
+        Raises HriError for gestures that cannot be read; the face stays as it was.
+        """
+        self._animate(model)
+        if self._playing is not None:
+            self._playing.cancel()
+            self._tell_end()
+        self.set_parameter("face", name)
+        self._events.raise_event("face.changed", face=name)
 
     def make(self, gesture: str, strength: float = 1.0, seconds: float = 0.0) -> Playing:
         """Make a gesture from the next tick on, instead of one that is being made.
@@ -222,6 +237,13 @@ class FaceRecorder(Behavior):
         self._writer.close()
 
 
+class Brush(NamedTuple):
+    """A face as a screen has it."""
+
+    model: FaceModel
+    render: Callable[[Vector], Image]
+
+
 class FaceRenderer(Behavior):
     """Draws the newest weights and shows them on a screen, one picture a tick at most."""
 
@@ -247,23 +269,33 @@ class FaceRenderer(Behavior):
 
     def start(self, context: Context) -> None:
         """Raises HriError when the face cannot be read or the screen is too large or small."""
-        from hri.face.renderers.bits import BitRenderer
         from hri.face.renderers.painter import load_compiler
-        from hri.face.renderers.renderer import Renderer
 
         load_compiler()
         self.captions_on = self.captions
         self.frames = 0
         self._refusals = Refusals(context.events)
         self._screen = context.resources.obtain(self.screen_id, Screen)
-        size = (self._screen.width, self._screen.height)
-        self._model = model = load_face(self.face)
-        self._render: Callable[[Vector], Image] = (
-            BitRenderer(model, size).picture
-            if self._screen.is_one_bit
-            else Renderer(model, size).render
-        )
+        self._brush = self.brush_of(load_face(self.face))
         self._worker: Worker[Image | HriError] = context.clock.worker(RENDER_LATENCY)
+
+    def brush_of(self, model: FaceModel) -> Brush:
+        """What draws a face on this screen; takes a second or two, and may be made in any thread.
+
+        Raises HriError for a screen that is too large or small.
+        """
+        from hri.face.renderers.bits import BitRenderer
+        from hri.face.renderers.renderer import Renderer
+
+        size = (self._screen.width, self._screen.height)
+        is_one_bit = self._screen.is_one_bit
+        render = BitRenderer(model, size).picture if is_one_bit else Renderer(model, size).render
+        return Brush(model, render)
+
+    def change(self, name: str, brush: Brush) -> None:
+        """Draw another face from the next picture on."""
+        self._brush = brush
+        self.set_parameter("face", name)
 
     def compute(self, now: float, dt: float) -> None:
         for picture in self._worker.poll():
@@ -275,17 +307,19 @@ class FaceRenderer(Behavior):
         weights = self.weights.value
         if weights is not None and self._screen.is_seen and not self._worker.is_busy:
             text = (self.caption.value or "") if self.captions_on else ""
-            self._worker.submit(partial(self._draw, weights, text, any(self.is_watching.values)))
+            is_watching = any(self.is_watching.values)
+            self._worker.submit(partial(_drawn, self._brush, weights, text, is_watching))
 
     def stop(self) -> None:
         self._worker.close()
 
-    def _draw(self, weights: FaceWeights, text: str, is_watching: bool) -> Image | HriError:
-        from hri.face.renderers.captions import add_caption
-        from hri.face.renderers.lamp import add_lamp
 
-        try:
-            picture = self._render(self._model.vector(weights.values))
-        except HriError as error:
-            return error
-        return add_caption(add_lamp(picture) if is_watching else picture, text)
+def _drawn(brush: Brush, weights: FaceWeights, text: str, is_watching: bool) -> Image | HriError:
+    from hri.face.renderers.captions import add_caption
+    from hri.face.renderers.lamp import add_lamp
+
+    try:
+        picture = brush.render(brush.model.vector(weights.values))
+    except HriError as error:
+        return error
+    return add_caption(add_lamp(picture) if is_watching else picture, text)

@@ -16,8 +16,8 @@ from hri.core.signals import Event, Expression, Utterance
 from hri.drive.tasks import move, stop, turn
 from hri.emotion.appraisal import OccEvent
 from hri.emotion.behaviors import EmotionModel
-from hri.face.behaviors import Face
-from hri.face.model import load_face
+from hri.face.behaviors import Brush, Face, FaceRenderer
+from hri.face.model import FaceModel, load_face
 from hri.speech.answering import AGAIN, CANCEL, NONE, answering
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import Grammar, parse
@@ -30,6 +30,7 @@ from hri.vision.behaviors import PersonTracker
 __all__ = [
     "appraise",
     "ask",
+    "change_face",
     "feel",
     "gesture",
     "listen",
@@ -90,6 +91,24 @@ async def show(context: TaskContext, label: str, seconds: float = 4.0) -> None:
             await context.clock.sleep(seconds)
         finally:
             slot.clear()
+
+
+async def change_face(context: TaskContext, name: str) -> None:
+    """Look otherwise from now on: a folder in faces/, or a path. Takes a second or two.
+
+    Raises HriError for a face that cannot be read; the robot looks as before then.
+    """
+    face = context.behavior(Face)
+    screens = [one for one in context.behaviors.values() if isinstance(one, FaceRenderer)]
+
+    def load() -> tuple[FaceModel, list[Brush]]:
+        model = load_face(name)
+        return model, [screen.brush_of(model) for screen in screens]
+
+    model, brushes = await context.blocking(load)
+    face.change(name, model)
+    for screen, brush in zip(screens, brushes, strict=True):
+        screen.change(name, brush)
 
 
 async def gesture(

@@ -3,7 +3,9 @@
 import pytest
 
 from apps.companion.skills.quiz.tasks import ANSWERS, QUESTIONS, read_questions
-from hri.core.errors import AuthoringError
+from hri.core.errors import AuthoringError, HriError
+from hri.face import Face
+from hri.robot.verbs import change_face
 from hri.speech.behaviors import Listener, Voice
 from hri.speech.grammar import load_grammar, parse
 from tests.apps.test_companion import Visit
@@ -55,6 +57,22 @@ def test_a_mistake_in_the_questions_has_its_place(tmp_path):
     file.write_text("")
     with pytest.raises(AuthoringError, match="there are 0 questions - write 3 or more"):
         read_questions(file)
+
+
+def test_a_face_that_is_not_there_leaves_it_as_it_looks():
+    told = []
+
+    async def change(context):
+        await context.clock.sleep(1.0)
+        try:
+            await change_face(context, "nobody")
+        except HriError as error:
+            told.append(str(error))
+        told.append(context.behavior(Face).face)
+
+    Visit(3, {}, jobs=[change])
+    assert told == [told[0], "robot"]
+    assert '"nobody"' in told[0]
 
 
 def test_the_voice_gets_louder_and_faster_to_a_limit_and_is_its_own_again():

@@ -13,6 +13,8 @@ from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Expression, FaceWeights, Gaze, Image, Speech
 from hri.face.behaviors import Face, FaceRecorder, FaceRenderer
 from hri.face.live_link import read_weights
+from hri.face.model import load_face
+from hri.face.still import render_face
 from hri.hal.drivers.blank import BlankScreen
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.resource import Description
@@ -303,3 +305,25 @@ def test_a_closed_mouth_is_seen_within_100_ms_of_a_cancel() -> None:
 
     assert height(talking) > height(calm) + 5
     assert height(shut) <= height(calm) + 1
+
+
+def test_another_face_is_put_on_while_it_lives() -> None:
+    stage = Stage()
+    stage.director.shown = Expression("happy")
+    stage.run(1.0)
+    stage.face.make("nod", seconds=10.0)
+    stage.run(0.2)
+    person = load_face("person")
+    stage.face.change("person", person)
+    stage.renderer.change("person", stage.renderer.brush_of(person))
+    stage.run(2.0)
+    seen = stage.screen.image.astype(float)
+    apart = {
+        name: np.abs(seen - render_face(name, "happy", size=(160, 120))).mean()
+        for name in ("robot", "person")
+    }
+    assert apart["person"] < apart["robot"] / 3
+    assert stage.face.face == stage.renderer.face == "person"
+    names = [event.name for event in stage.events]
+    assert names == ["gesture.started", "gesture.ended", "face.changed"]
+    assert len(stage.screen.pictures) == stage.ticks - 1
