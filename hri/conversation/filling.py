@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
-from hri.conversation.form_grammar import SLOT, YES, form_grammar
+from hri.conversation.form_grammar import SLOT, YES, form_grammar, is_clear
 from hri.conversation.forms import NOTHING, Form
 from hri.core.signals import Utterance
 from hri.robot.verbs import Ending, ask_in_force, say
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.grammar import Grammar
 from hri.speech.tasks import answers_of
 from hri.task.context import TaskContext
 
@@ -36,6 +37,8 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
             answer = await _answer(context, form, question, is_yes_or_no=slot is None)
             if isinstance(answer, Ending):
                 return None
+            if isinstance(answer, Utterance) and not is_clear(_grammar(context), answer):
+                continue
             if isinstance(answer, Utterance) and (tags := _told(form, answer)):
                 values = _with(values, tags)
             elif slot is not None:
@@ -93,9 +96,12 @@ async def _after_what_is_said(context: TaskContext) -> None:
 
 def _is_interrupted(context: TaskContext) -> bool:
     """Whether the last sentence was one that ends everything, such as "stop"."""
-    listener = context.behavior(Listener)
-    heard = listener.last_utterance
-    return heard is None or heard.rule in listener.loaded_grammar.marked("interrupts")
+    heard = context.behavior(Listener).last_utterance
+    return heard is None or heard.rule in _grammar(context).marked("interrupts")
+
+
+def _grammar(context: TaskContext) -> Grammar:
+    return context.behavior(Listener).loaded_grammar
 
 
 def _is_yes(answer: bool | Utterance) -> bool:

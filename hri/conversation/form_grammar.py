@@ -7,13 +7,17 @@ from dataclasses import replace
 
 from hri.conversation.forms import NOTHING, Form
 from hri.core import paths
+from hri.core.signals import Utterance
 from hri.robot.verbs import in_words
 from hri.speech.answering import AFTER, BEFORE, CANCEL, CORRECTING, answering
-from hri.speech.grammar import Grammar, Rule, load_grammar
+from hri.speech.grammar import Grammar, Rule, load_grammar, parse
+from hri.speech.grammar.doc_comments import DocTag
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     Optional,
+    Repeat,
     RuleReference,
     Sequence,
     Tagged,
@@ -29,6 +33,8 @@ SLOT = "form.slot"
 """The rule of what names a slot that is to be asked for again: "change the size"."""
 EMPTY = "form.empty"
 """The rule of what leaves a slot empty: "no toppings"."""
+SEVERAL = "form.several"
+"""The rule of answers among other words, which are typed: "a small one dear with olives please"."""
 NAMES = "form.names"
 """The part that names a slot."""
 NAMED = "form.named"
@@ -39,6 +45,10 @@ LINKING = ("to", "is", "it's", "should be", "has to be", "as")
 """What may be said between the name of a slot and its value."""
 WITHOUT = ("no", "without", "without any", "leave out the", "skip the", "hold the", "i don't want")
 """What may be said before the name of a slot that is left empty."""
+MOST_BETWEEN, MOST_BEHIND = 4, 6
+"""Other words between two answers, and behind the last."""
+NEGATING = frozenset(("no", "not", "don't", "without", "never", "instead", "except", "isn't"))
+"""One of these among the other words leaves open what is wanted."""
 
 
 def form_grammar(form: Form, grammar: Grammar) -> Grammar:
@@ -57,11 +67,18 @@ def form_grammar(form: Form, grammar: Grammar) -> Grammar:
     own = {key: asked.rules[key] for key in grammar.public_rules}
     words = _Words(next(iter(own.values())))
     made = {EMPTY: words.empty(form), SLOT: words.slot()}
-    made |= {NAMES: words.names(form), NAMED: words.named()}
+    made |= {NAMES: words.names(form), NAMED: words.named(), SEVERAL: words.several((*own, EMPTY))}
     # "Never mind" is also a no, to a question of yes or no alone, and "nothing" empties no slot
     # by its name.
     first = {key: asked.rules[key] for key in (CANCEL, NO)}
     return replace(asked, rules={**own, **first, **made, **asked.rules, **made})
+
+
+def is_clear(grammar: Grammar, answer: Utterance) -> bool:
+    """Whether nothing that was said among answers turns one of them around."""
+    found = parse(grammar, answer.text, {SEVERAL}) if answer.rule == SEVERAL else None
+    said = [] if found is None else found.text.split()
+    return found is None or NEGATING.isdisjoint(said[number] for number in found.free)
 
 
 class _Words:
@@ -99,6 +116,15 @@ class _Words:
                 choices.append(self._tagged(self._any_of(said), slot.name, NOTHING))
         expression = framed(self._either(choices), self._to(BEFORE), self._to(AFTER))
         return self._rule(EMPTY, expression, is_public=bool(choices))
+
+    def several(self, answers: Iterable[str]) -> Rule:
+        item = self._either(map(self._to, answers))
+        between, behind = (
+            self._maybe(Anything(self._span, 1, most)) for most in (MOST_BETWEEN, MOST_BEHIND)
+        )
+        more = Repeat(Sequence((between, item), self._span), 0, self._span)
+        rule = self._rule(SEVERAL, Sequence((item, more, behind), self._span))
+        return replace(rule, doc_tags=(DocTag("typed", "", self._span),))
 
     def _rule(self, key: str, expression: Expression, is_public: bool = True) -> Rule:
         return replace(self._like, key=key, expression=expression, is_public=is_public, doc_tags=())

@@ -2,9 +2,10 @@
 
 import pytest
 
-from hri.conversation.form_grammar import form_grammar
+from hri.conversation.form_grammar import form_grammar, is_clear
 from hri.conversation.forms import NOTHING, load_forms
 from hri.core.errors import AuthoringError
+from hri.core.signals import Utterance
 from hri.speech.grammar import load_grammar, parse
 
 GRAMMAR = """#JSGF V1.0;
@@ -96,6 +97,12 @@ def test_a_mistake_has_its_place(load, text, what):
         ("no the size it's small", "pizza", {"slot": "size", "size": "small"}),
         ("no toppings", "form.empty", {"toppings": ""}),
         ("nothing on it thanks", "form.empty", {"toppings": ""}),
+        (
+            "a small one dear with olives if you have them",
+            "form.several",
+            {"size": "small", "toppings": ("olives",)},
+        ),
+        ("nothing on it just plain", "form.several", {"toppings": ""}),
         ("change the size", "form.slot", {"slot": "size"}),
         ("the toppings please", "form.slot", {"slot": "toppings"}),
         ("yes please", "answers.yes", {}),
@@ -110,3 +117,18 @@ def test_a_mistake_has_its_place(load, text, what):
 def test_people_answer_correct_and_cancel_in_their_words(pizza, text, rule, tags):
     found = parse(form_grammar(pizza, load_grammar(pizza.grammar)), text)
     assert (found.rule, found.tags) == (rule, tags)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_clear_enough"),
+    [
+        ("a small one dear with olives if you have them", True),
+        ("a small one but not with olives", False),
+        ("bacon i guess instead of the olives", False),
+        ("no wait a small one", True),
+    ],
+)
+def test_what_is_not_wanted_is_not_taken_for_an_answer(pizza, text, is_clear_enough):
+    grammar = form_grammar(pizza, load_grammar(pizza.grammar))
+    found = parse(grammar, text)
+    assert is_clear(grammar, Utterance(text, found.rule, found.tags)) == is_clear_enough
