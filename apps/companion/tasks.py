@@ -147,14 +147,17 @@ async def take_saved_replies(context: TaskContext) -> None:
     seen = _changed_at(watched)
     with context.queue("grammar.changed") as queue:
         while True:
-            is_new_grammar = False
+            has_new_grammar = False
             with context.clock.move_on_after(LOOK_EVERY):
-                is_new_grammar = await queue.get() is not None
-            if not is_new_grammar and seen == _changed_at(watched):
+                has_new_grammar = (await queue.get()).properties["reloaded"]
+            grammar = companion.listener.loaded_grammar
+            # That of a question has no commands.
+            has_new_grammar &= grammar.path == vocabulary.grammar.path
+            if not has_new_grammar and seen == _changed_at(watched):
                 continue
             watched = [*with_named_files(files), *forms]
             seen = _changed_at(watched)
-            grammar = companion.listener.loaded_grammar
+            grammar = grammar if has_new_grammar else vocabulary.grammar
             vocabulary = replace(vocabulary, grammar=grammar, stimuli=load_stimuli())
             try:
                 vocabulary = replace(vocabulary, forms=load_forms(forms))

@@ -53,6 +53,14 @@ class Layer:
     changed: float = 0.0
     """When its files were last changed, as the file system counts."""
 
+    is_read: bool = False
+    """Whether its file was read for this, which it is not when it comes into force once more."""
+
+    @property
+    def is_reloaded(self) -> bool:
+        """Whether it came into force because its file was saved."""
+        return self.is_read and self.origin is not None
+
     def stands_for(self, layer: Layer) -> bool:
         """Whether it is that layer, or was read again from its file."""
         return layer in (self, self.origin)

@@ -67,7 +67,8 @@ class Listener(Behavior):
     continues, follow_up, and with free slots spoken), `speech.rejected` (reason, detail, text,
     confidence, begun, is_typed, is_addressed, is_looked_at, level_db), `speech.partial` (text)
     while someone speaks, `speech.interrupted` (text, rule) when a rule marked @interrupts is heard
-    over the robot's own voice, and `grammar.changed` (file) or `grammar.refused` (file, error).
+    over the robot's own voice, and `grammar.changed` (file, reloaded) or
+    `grammar.refused` (file, error).
     When the person begins to speak again soon after something was heard, `speech.continued` (text)
     asks to wait with acting on it; then another `speech.heard` takes its place, or
     `speech.confirmed` (text) lets it count. Loads its models and grammars while the rest already
@@ -239,6 +240,7 @@ class Listener(Behavior):
 
         Where there is no other one, a grammar that the recognizer refuses serves for typed lines.
         """
+        layer.is_read = layer.grammar is None
         grammar = layer.grammar or self._read(layer.path)
         heard = layer.prepare(self._without_silent(grammar))
         for below in layer.below:
@@ -263,7 +265,8 @@ class Listener(Behavior):
                 error = str(refused)
                 self._events.raise_event("grammar.refused", file=str(layer.path), error=error)
             elif layer is not None and layer.grammar is not self._first:
-                self._events.raise_event("grammar.changed", file=str(layer.path))
+                told = {"file": str(layer.path), "reloaded": layer.is_reloaded}
+                self._events.raise_event("grammar.changed", **told)
         if self.reload:
             self._grammars.reload_when_changed(now)
 

@@ -55,6 +55,12 @@ def test_a_timer_wakes_a_robot_that_sleeps_and_is_said_though_it_is_to_be_quiet(
         assert RING in visit.said()
 
 
+def test_the_replies_are_not_read_against_the_grammar_of_a_question():
+    visit = typed(14, {1.0: "set a timer", 5.0: "ten minutes"})
+    assert visit.said()[:2] == ["For how long?", "Okay, 10 minutes."]
+    assert visit.named("replies.refused") == visit.named("replies.changed") == []
+
+
 def test_a_timer_does_not_talk_into_a_question():
     visit = typed(25, {1.0: "set a tea timer for ten seconds", 9.0: "set an alarm", 15.0: "noon"})
     said = visit.said()

@@ -474,6 +474,7 @@ def test_a_grammar_that_was_read_again_is_taken_away_by_who_put_it_there(write):
         assert list(stage.behavior.loaded_grammar.sentences_of("drink", 1)) == ["white wine"]
         assert stage.behavior.is_in_force(layer)
     assert stage.names() == ["grammar.changed"] * 3
+    assert [told["reloaded"] for _, _, told in stage.events] == [False, True, True]
 
     stage.behavior.pop(layer)
     stage.run(0.5)

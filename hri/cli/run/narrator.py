@@ -107,6 +107,8 @@ class Narrator:
         if event.name == "odometry":
             self._pose = (event.properties["x_cm"] / 100, event.properties["y_cm"] / 100)
             return
+        if event.name == "grammar.changed" and not event.properties["reloaded"]:
+            return
         if event.name == "emotion.changed":
             if event.properties["label"] == self._label:
                 return

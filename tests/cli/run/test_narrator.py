@@ -93,3 +93,9 @@ def test_who_has_it_say_something_is_told_unless_they_type_there(told):
     with caused_by(KEYBOARD):
         assert told("speech.heard", text="hello").endswith("heard hello")
     assert told("speech.said", text="Hello.").endswith("said Hello.")
+
+
+def test_a_grammar_is_reloaded_when_it_was_saved_and_not_when_a_question_has_its_own(told):
+    assert told("speech.said", text="Which size?").endswith("said Which size?")
+    assert told("grammar.changed", file="size.jsgf", reloaded=False).endswith("Which size?")
+    assert told("grammar.changed", file="all.jsgf", reloaded=True).endswith("reloaded the grammar")
