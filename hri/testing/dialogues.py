@@ -3,15 +3,18 @@
     ```dialogue
     you: roll two dice
     robot: I rolled * and *.
+    wait: 3 minutes
+    robot: Your tea is ready.
     ```
 
-A `*` stands for any words.
+A `*` stands for any words. A wait passes at once; what the robot says by itself then does not count.
 """
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -19,11 +22,11 @@ from typing import Literal
 
 from hri.core.errors import AuthoringError, Place
 from hri.core.reading import read_text
-from hri.core.signals import Event
 from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.task.context import TaskContext
+from hri.task.queue import EventQueue
 
 TYPED = (
     Description("screen", "Hri.BlankScreen"),
@@ -36,11 +39,16 @@ AFTER = 1.0
 """Seconds from the end of what the robot says to the next line."""
 PATIENCE = 20.0
 """Seconds without a word after which nothing more is waited for."""
+LONGEST_WAIT = 3600.0
+"""Seconds of one wait, which a machine computes in a minute or two."""
+UNITS = {"second": 1.0, "minute": 60.0, "hour": 3600.0}
 
-Who = Literal["you", "robot"]
+Who = Literal["you", "robot", "wait"]
 Line = tuple[Who, str]
 _BLOCK = re.compile(r"^```dialogue\n(.*?)^```", re.DOTALL | re.MULTILINE)
-_LINE = re.compile(r"(you|robot): (.+)")
+_WHO: Mapping[str, Who] = {"you": "you", "robot": "robot", "wait": "wait"}
+_LINE = re.compile(r"(you|robot|wait): (.+)")
+_WAIT = re.compile(rf"(\d+(?:\.\d+)?) ({'|'.join(UNITS)})s?")
 _FILE = re.compile(
     r"^`(\w+)/([\w.]+)`[^\n]*\n(?:[^`\n][^\n]*\n|\n)*```\w*\n(.*?)^```", re.DOTALL | re.MULTILINE
 )
@@ -54,18 +62,28 @@ class Dialogue:
     lines: tuple[Line, ...]
 
     def mistake(self, happened: Sequence[Line]) -> str:
-        """The first line that went otherwise, in words; empty if all went as shown."""
-        for number, (who, text) in enumerate(self.lines):
-            said = happened[number] if number < len(happened) else None
-            if said is None or said[0] != who or not fnmatchcase(said[1], _pattern(text)):
+        """The first line that went otherwise, with its place; empty if all went as shown."""
+        rest = iter(happened)
+        for number, (who, text) in enumerate(self.lines, start=self.place.line):
+            if who == "wait":
+                continue
+            said = next(rest, None)
+            if said is None or said[0] != who or not _is_as_shown(said[1], text):
                 instead = "nothing more" if said is None else f'"{said[1]}" from {said[0]}'
-                return f'line {number + 1}, "{text}" from {who}: {instead} instead'
+                return f'{Place(self.place.path, number)}: "{text}" from {who}: {instead} instead'
         return ""
 
 
-def _pattern(text: str) -> str:
-    """For fnmatch, in which only * has a meaning."""
-    return text.replace("[", "[[]").replace("?", "[?]")
+def _is_as_shown(said: str, text: str) -> bool:
+    """Whether words are those of a page, in which only * has a meaning."""
+    return fnmatchcase(said, text.replace("[", "[[]").replace("?", "[?]"))
+
+
+def _seconds(wait: str) -> float | None:
+    """How long it is; None for what is not a time, or too long a one."""
+    found = _WAIT.fullmatch(wait)
+    seconds = math.inf if found is None else float(found[1]) * UNITS[found[2]]
+    return seconds if seconds <= LONGEST_WAIT else None
 
 
 def read_dialogues(page: Path) -> list[Dialogue]:
@@ -86,7 +104,10 @@ def _dialogue(page: Path, text: str, block: re.Match[str]) -> Dialogue:
         if said is None:
             what = f'nobody says the line "{line[:60]}" of a dialogue'
             raise AuthoringError(Place(page, number), what, 'begin it with "you: " or "robot: "')
-        lines.append(("you" if said[1] == "you" else "robot", said[2]))
+        if said[1] == "wait" and _seconds(said[2]) is None:
+            what = f'"{said[2][:60]}" is not a time up to an hour'
+            raise AuthoringError(Place(page, number), what, 'write "wait: 3 minutes"')
+        lines.append((_WHO[said[1]], said[2]))
     return Dialogue(Place(page, first), tuple(lines))
 
 
@@ -104,26 +125,38 @@ def write_shown_files(page: Path, folder: Path) -> None:
 def played(robot: Robot, dialogue: Dialogue) -> list[Line]:
     """The lines that were said when a robot of the devices TYPED heard those of the people.
 
-    Each line is typed a second after the robot has said what stands before it.
+    Each line is typed a second after the robot has said what stands before it. After a wait, the
+    robot may say other things by itself before the next line.
     """
     keyboard = robot.resources.obtain("recognizer", TypedRecognizer)
     happened: list[Line] = []
 
     async def talk(context: TaskContext) -> None:
         with context.queue("speech.finished") as queue:
+            has_waited = False
             for who, text in dialogue.lines:
-                if who == "you":
+                if who == "wait":
+                    await context.clock.sleep(_seconds(text) or 0.0)
+                elif who == "you":
                     await context.clock.sleep(AFTER)
                     keyboard.type_line(text, context.clock.now())
                     happened.append((who, text))
-                    continue
-                event: Event | None = None
-                with context.clock.move_on_after(PATIENCE):
-                    event = await queue.get()
-                if event is None:
-                    break
-                happened.append((who, str(event.properties["text"])))
+                else:
+                    said = await _heard(context, queue, text if has_waited else "*")
+                    if said is None:
+                        break
+                    happened.append((who, said))
+                has_waited = who == "wait"
         robot.finish()
 
     robot.live_until_over(*robot.app.load_tasks(), talk)
     return happened
+
+
+async def _heard(context: TaskContext, queue: EventQueue, shown: str) -> str | None:
+    """What the robot says next, of what is as shown; else the last it said, None for nothing."""
+    said: str | None = None
+    with context.clock.move_on_after(PATIENCE):
+        while said is None or not _is_as_shown(said, shown):
+            said = str((await queue.get()).properties["text"])
+    return said

@@ -62,5 +62,5 @@ def test_the_table_lists_the_skills_that_are_shipped():
     "dialogue", read_dialogues(FORMS), ids=lambda dialogue: str(dialogue.place.line)
 )
 def test_the_dialogues_with_forms_go_as_shown(plugged_in, dialogue):
-    assert {place.name for place in plugged_in(FORMS).iterdir()} == {"pizza", "meeting", "survey"}
+    assert {place.name for place in plugged_in(FORMS).iterdir()} == {"pizza", "meeting", "tea"}
     assert dialogue.mistake(played(robot(), dialogue)) == ""

@@ -209,7 +209,9 @@ def test_a_client_that_came_before_the_token_was_made_shows_it_later(robot, capl
     there.bridge.set_parameter("tag_name", "bridge")
     speed = Constant("speed", parsed_value="20")
     there.run(speed, there.bridge, links=[("speed.value", "peer.velocity")])
+    # A client looks for a token when it connects, which is later than it is let in.
     assert here.bridge._link.wait_for_peers(1, WITHIN)
+    assert there.bridge._link.wait_for_peers(1, WITHIN)
     takes = [Shared("shared", slot="wish"), DriveCommand("drive")]
     here.run(*takes, links=[("shared.number", "drive.linear_velocity")], name="two")
     here.tick()

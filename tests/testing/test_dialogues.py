@@ -49,6 +49,18 @@ def test_a_star_stands_for_any_words_and_nothing_else_does(dialogue, happened, m
     assert mistake in told
 
 
+def test_a_mistake_has_its_place(dialogue):
+    assert dialogue.mistake([ROLL]).partition(": ")[0].endswith("page.md:5:1")
+
+
+@pytest.mark.parametrize("wait", ["a while", "2 hours", "3 weeks", "-1 minutes", "nan seconds"])
+def test_a_wait_is_a_time_up_to_an_hour(tmp_path, wait):
+    page = tmp_path / "page.md"
+    page.write_text(f"```dialogue\nyou: hello\nwait: {wait}\n```\n")
+    with pytest.raises(AuthoringError, match=r"page\.md:3:1: .* is not a time up to an hour"):
+        read_dialogues(page)
+
+
 def test_a_line_that_nobody_says_has_its_place(tmp_path):
     page = tmp_path / "page.md"
     page.write_text("\n```dialogue\nyou: hello\nRobot: hi\n```\n")

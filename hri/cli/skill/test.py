@@ -55,8 +55,7 @@ def _mistake(app: str, name: str, dialogue: Dialogue) -> str:
         for one in robot.app.off:
             if one.name == name:
                 raise HriError(_why_off(one))
-        mistake = dialogue.mistake(played(robot, dialogue))
-    return f"{dialogue.place}: {mistake}" if mistake else ""
+        return dialogue.mistake(played(robot, dialogue))
 
 
 def _why_off(skill: OffSkill) -> str:
