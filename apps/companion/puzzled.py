@@ -10,6 +10,7 @@ from itertools import islice
 from typing import Any
 
 from hri.conversation import (
+    ASKED,
     TELLING,
     Answer,
     Gist,
@@ -242,7 +243,13 @@ def _answers(companion: Companion, grammar: Grammar) -> list[str]:
     others = grammar.marked("interrupts")
     # What may be said around an answer belongs to other grammars.
     own = [rule for rule in grammar.public_rules if rule not in others and "." not in rule]
-    found = dict.fromkeys(text for rule in own for text in different(grammar, rule))
+    asked = companion.context.board.slot(ASKED).value
+    found = dict.fromkeys(
+        text
+        for rule in own
+        for text in different(grammar, rule)
+        if not asked or asked in getattr(parse(grammar, text), "tags", ())
+    )
     return [as_said(text) for text in islice(found, 2)]
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
-from hri.conversation.form_grammar import SLOT, YES, form_grammar, is_clear
+from hri.conversation.form_grammar import LESS, MORE, SLOT, YES, form_grammar, wanted
 from hri.conversation.forms import NOTHING, Form
 from hri.core.signals import Utterance
 from hri.robot.verbs import Ending, ask_in_force, say
@@ -15,6 +15,8 @@ from hri.speech.grammar import Grammar
 from hri.speech.tasks import answers_of
 from hri.task.context import TaskContext
 
+ASKED = "form.asked"
+"""Slot of the board with the tag that is asked for; empty while another question is open."""
 BREATH = 0.3
 """Seconds in which it begins to answer what else was said, and between looks at its voice."""
 
@@ -34,12 +36,13 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
             if slot is None and not form.confirm:
                 return values
             question = slot.ask if slot else form.filled_in(form.confirm, values)
+            context.board.slot(ASKED).set(slot.name if slot else "", context.clock.now())
             answer = await _answer(context, form, question, is_yes_or_no=slot is None)
             if isinstance(answer, Ending):
                 return None
-            if isinstance(answer, Utterance) and not is_clear(_grammar(context), answer):
+            if answer is None:
                 continue
-            if isinstance(answer, Utterance) and (tags := _told(form, answer)):
+            if isinstance(answer, Utterance) and (tags := _told(form, answer, values)):
                 values = _with(values, tags)
             elif slot is not None:
                 if not _is_yes(answer) and slot.none is None:
@@ -47,7 +50,7 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
                 values |= {} if _is_yes(answer) else {slot.name: NOTHING}
             elif _is_yes(answer):
                 return values
-            elif (changed := await _changed(context, form)) is None:
+            elif (changed := await _changed(context, form, values)) is None:
                 break
             else:
                 values = _with(values, changed)
@@ -56,17 +59,36 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
     return None
 
 
-async def _changed(context: TaskContext, form: Form) -> dict[str, Any] | None:
+async def _changed(
+    context: TaskContext, form: Form, values: Mapping[str, Any]
+) -> dict[str, Any] | None:
     """The slots that are to be otherwise, after a no; None where nothing is."""
     answer = await _answer(context, form, form.change) if form.change else False
-    return _told(form, answer) or None if isinstance(answer, Utterance) else None
+    return _told(form, answer, values) or None if isinstance(answer, Utterance) else None
 
 
-def _told(form: Form, answer: Utterance) -> dict[str, Any]:
+def _told(form: Form, answer: Utterance, values: Mapping[str, Any]) -> dict[str, Any]:
     """The slots that an answer fills; None for one that is to be asked for again."""
     if answer.rule == SLOT:
         return {answer.tags["slot"]: None}
-    return form.taken(answer.tags)
+    told = form.taken(answer.tags)
+    if answer.rule == MORE:
+        return {name: (*_listed(values, name), *items) for name, items in told.items()}
+    if answer.rule == LESS:
+        return {name: _left(_listed(values, name), items) for name, items in told.items()}
+    return told
+
+
+def _listed(values: Mapping[str, Any], name: str) -> tuple[Any, ...]:
+    """What a slot of several values has by now."""
+    return values.get(name) or ()
+
+
+def _left(listed: tuple[Any, ...], items: tuple[Any, ...]) -> Any:
+    """A list without some things; those alone where none of them is in it: "no, olives"."""
+    if not set(items) & set(listed):
+        return items
+    return tuple(one for one in listed if one not in items) or NOTHING
 
 
 def _with(values: Mapping[str, Any], told: Mapping[str, Any]) -> dict[str, Any]:
@@ -75,15 +97,18 @@ def _with(values: Mapping[str, Any], told: Mapping[str, Any]) -> dict[str, Any]:
 
 async def _answer(
     context: TaskContext, form: Form, question: str, is_yes_or_no: bool = False
-) -> bool | Utterance | Ending:
-    """The answer to a question of a form; who says something else is asked again."""
+) -> bool | Utterance | Ending | None:
+    """The answer to a question of a form; who says something else is asked again.
+
+    None for one that is not clear.
+    """
     questions = {slot.name: slot.ask for slot in form.slots}
     ask = partial(ask_in_force, context, question, questions=questions, is_yes_or_no=is_yes_or_no)
     answer = await ask()
     if answer is Ending.OTHER and not _is_interrupted(context):
         await _after_what_is_said(context)
         answer = await ask()
-    return answer
+    return wanted(_grammar(context), answer) if isinstance(answer, Utterance) else answer
 
 
 async def _after_what_is_said(context: TaskContext) -> None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 
+from hri.conversation.examples import different
 from hri.conversation.forms import NOTHING, Form
 from hri.core import paths
 from hri.core.signals import Utterance
@@ -19,7 +21,7 @@ from hri.speech.grammar.expressions import (
     Optional,
     Repeat,
     RuleReference,
-    Sequence,
+    Sequence as Row,
     Tagged,
     Token,
 )
@@ -33,6 +35,10 @@ SLOT = "form.slot"
 """The rule of what names a slot that is to be asked for again: "change the size"."""
 EMPTY = "form.empty"
 """The rule of what leaves a slot empty: "no toppings"."""
+ADDED = ("form.", "answers.", "asking.")
+"""Beginnings of the names of rules that are not the form's own."""
+MORE, LESS = "form.more", "form.less"
+"""The rules of what adds to a slot of several values, and takes away: "add bacon", "no olives"."""
 SEVERAL = "form.several"
 """The rule of answers among other words, which are typed: "a small one dear with olives please"."""
 NAMES = "form.names"
@@ -45,10 +51,22 @@ LINKING = ("to", "is", "it's", "should be", "has to be", "as")
 """What may be said between the name of a slot and its value."""
 WITHOUT = ("no", "without", "without any", "leave out the", "skip the", "hold the", "i don't want")
 """What may be said before the name of a slot that is left empty."""
+ADDING = ("add", "and also", "also", "plus", "and add", "put on", "with extra")
+"""What may be said before another value of a slot that may have several."""
+TAKING_AWAY = ("no", "not", "without", "no more", "take off", "leave out", "remove", "hold", "skip")
+"""What may be said before a value that is taken away; "no olives" may also be "no, olives"."""
+MOST_LOOKED_AT = 20
+"""Sentences of a rule that show whether its slot has several values."""
 MOST_BETWEEN, MOST_BEHIND = 4, 6
 """Other words between two answers, and behind the last."""
-NEGATING = frozenset(("no", "not", "don't", "without", "never", "instead", "except", "isn't"))
+NEGATING = frozenset(("no", "not", "don't", "without", "never", "except", "isn't"))
 """One of these among the other words leaves open what is wanted."""
+UNWANTED = (["instead", "of"], ["rather", "than"], ["not"])
+"""What may be said before an answer that is not one: "mushrooms instead of bacon"."""
+LEADING = ("with", "on", "at", "the", "a")
+"""Words that may stand before it."""
+LONGEST_UNWANTED = 4
+"""Words of an answer that is not one."""
 
 
 def form_grammar(form: Form, grammar: Grammar) -> Grammar:
@@ -68,17 +86,48 @@ def form_grammar(form: Form, grammar: Grammar) -> Grammar:
     words = _Words(next(iter(own.values())))
     made = {EMPTY: words.empty(form), SLOT: words.slot()}
     made |= {NAMES: words.names(form), NAMED: words.named(), SEVERAL: words.several((*own, EMPTY))}
+    listed = [key for key in own if words.is_listed(form, grammar, key)]
+    before = {MORE: words.items(MORE, ADDING, listed), LESS: words.items(LESS, TAKING_AWAY, listed)}
     # "Never mind" is also a no, to a question of yes or no alone, and "nothing" empties no slot
     # by its name.
     first = {key: asked.rules[key] for key in (CANCEL, NO)}
-    return replace(asked, rules={**own, **first, **made, **asked.rules, **made})
+    return replace(asked, rules={**before, **own, **first, **made, **asked.rules, **made})
 
 
-def is_clear(grammar: Grammar, answer: Utterance) -> bool:
-    """Whether nothing that was said among answers turns one of them around."""
-    found = parse(grammar, answer.text, {SEVERAL}) if answer.rule == SEVERAL else None
-    said = [] if found is None else found.text.split()
-    return found is None or NEGATING.isdisjoint(said[number] for number in found.free)
+def wanted(grammar: Grammar, answer: Utterance) -> Utterance | None:
+    """The answer without what is named and not wanted; None where that is not clear.
+
+    "Wednesday not monday" is Wednesday, and "small but don't forget the olives" is not clear.
+    """
+    if answer.rule != SEVERAL:
+        return answer
+    words = list(_without_unwanted(grammar, answer.text.split()))
+    found = parse(grammar, " ".join(words))
+    if found is None or not NEGATING.isdisjoint(words[number] for number in found.free):
+        return None
+    return replace(answer, rule=found.rule, tags=found.tags)
+
+
+def _without_unwanted(grammar: Grammar, words: Sequence[str]) -> Iterator[str]:
+    own = {rule for rule in grammar.public_rules if not rule.startswith(ADDED)}
+    rest = list(words)
+    while rest:
+        sign = next((sign for sign in UNWANTED if rest[: len(sign)] == sign), [])
+        length = _answer_length(grammar, own, rest[len(sign) :]) if sign else 0
+        if length:
+            rest = rest[len(sign) + length :]
+        else:
+            yield rest.pop(0)
+
+
+def _answer_length(grammar: Grammar, rules: Collection[str], words: Sequence[str]) -> int:
+    """How many words at the beginning are an answer."""
+    begin = 1 if words[:1] and words[0] in LEADING else 0
+    for end in range(min(len(words), begin + LONGEST_UNWANTED), begin, -1):
+        found = parse(grammar, " ".join(words[begin:end]), rules)
+        if found is not None and not found.free:
+            return end
+    return 0
 
 
 class _Words:
@@ -94,7 +143,7 @@ class _Words:
             self._tagged(self._words(in_words(slot.name)), "slot", slot.name) for slot in form.slots
         )
         row = (self._maybe(self._any_of(CHANGING)), article, names)
-        return self._rule(NAMES, Sequence(row, self._span), is_public=False)
+        return self._rule(NAMES, Row(row, self._span), is_public=False)
 
     def slot(self) -> Rule:
         return self._rule(SLOT, framed(self._to(NAMES), self._to(CORRECTING), self._to(AFTER)))
@@ -103,7 +152,7 @@ class _Words:
         """What may stand before an answer, with the name of its slot or without."""
         linking, before = self._maybe(self._any_of(LINKING)), self._maybe(self._to(BEFORE))
         row = (self._maybe(self._to(CORRECTING)), self._to(NAMES), linking, before)
-        expression = self._either((self._to(CORRECTING), Sequence(row, self._span)))
+        expression = self._either((self._to(CORRECTING), Row(row, self._span)))
         return self._rule(NAMED, expression, is_public=False)
 
     def empty(self, form: Form) -> Rule:
@@ -117,20 +166,36 @@ class _Words:
         expression = framed(self._either(choices), self._to(BEFORE), self._to(AFTER))
         return self._rule(EMPTY, expression, is_public=bool(choices))
 
+    def is_listed(self, form: Form, grammar: Grammar, key: str) -> bool:
+        """Whether a rule gives values of one slot alone, which may have several."""
+        texts = islice(different(grammar, key), MOST_LOOKED_AT)
+        tags = [found.tags for text in texts if (found := parse(grammar, text, {key}))]
+        names = {name for told in tags for name in form.taken(told)}
+        return len(names) == 1 and all(
+            isinstance(told.get(name), tuple) for told in tags for name in names
+        )
+
+    def items(self, key: str, before: Iterable[str], listed: Iterable[str]) -> Rule:
+        """Things of a slot of several values, and what is to become of them."""
+        things = [self._to(one) for one in listed]
+        row = (self._any_of(before), self._maybe(self._words("the")), self._either(things))
+        return self._rule(key, Row(row, self._span), is_public=bool(things))
+
     def several(self, answers: Iterable[str]) -> Rule:
+        """Answers with other words between and behind them."""
         item = self._either(map(self._to, answers))
         between, behind = (
             self._maybe(Anything(self._span, 1, most)) for most in (MOST_BETWEEN, MOST_BEHIND)
         )
-        more = Repeat(Sequence((between, item), self._span), 0, self._span)
-        rule = self._rule(SEVERAL, Sequence((item, more, behind), self._span))
+        more = Repeat(Row((between, item), self._span), 0, self._span)
+        rule = self._rule(SEVERAL, Row((item, more, behind), self._span))
         return replace(rule, doc_tags=(DocTag("typed", "", self._span),))
 
     def _rule(self, key: str, expression: Expression, is_public: bool = True) -> Rule:
         return replace(self._like, key=key, expression=expression, is_public=is_public, doc_tags=())
 
     def _words(self, text: str) -> Expression:
-        return Sequence(tuple(Token(word, self._span) for word in text.split()), self._span)
+        return Row(tuple(Token(word, self._span) for word in text.split()), self._span)
 
     def _any_of(self, texts: Iterable[str]) -> Expression:
         return self._either(map(self._words, texts))

@@ -7,7 +7,7 @@
     robot: Your tea is ready.
     ```
 
-A `*` stands for any words. A wait passes at once; what the robot says by itself then does not count.
+A `*` stands for any words. A wait passes at once; what it says by itself then does not count.
 """
 
 from __future__ import annotations
@@ -154,7 +154,7 @@ def played(robot: Robot, dialogue: Dialogue) -> list[Line]:
 
 
 async def _heard(context: TaskContext, queue: EventQueue, shown: str) -> str | None:
-    """What the robot says next, of what is as shown; else the last it said, None for nothing."""
+    """The next words of the robot that are as shown; else its last ones, None for silence."""
     said: str | None = None
     with context.clock.move_on_after(PATIENCE):
         while said is None or not _is_as_shown(said, shown):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from hri.conversation.form_grammar import form_grammar, is_clear
+from hri.conversation.form_grammar import form_grammar, wanted
 from hri.conversation.forms import NOTHING, load_forms
 from hri.core.errors import AuthoringError
 from hri.core.signals import Utterance
@@ -102,6 +102,8 @@ def test_a_mistake_has_its_place(load, text, what):
             "form.several",
             {"size": "small", "toppings": ("olives",)},
         ),
+        ("add bacon", "form.more", {"toppings": ("bacon",)}),
+        ("no olives", "form.less", {"toppings": ("olives",)}),
         ("nothing on it just plain", "form.several", {"toppings": ""}),
         ("change the size", "form.slot", {"slot": "size"}),
         ("the toppings please", "form.slot", {"slot": "toppings"}),
@@ -120,15 +122,22 @@ def test_people_answer_correct_and_cancel_in_their_words(pizza, text, rule, tags
 
 
 @pytest.mark.parametrize(
-    ("text", "is_clear_enough"),
+    ("text", "tags"),
     [
-        ("a small one dear with olives if you have them", True),
-        ("a small one but not with olives", False),
-        ("bacon i guess instead of the olives", False),
-        ("no wait a small one", True),
+        (
+            "a small one dear with olives if you have them",
+            {"size": "small", "toppings": ("olives",)},
+        ),
+        ("a small one but not with olives", {"size": "small"}),
+        ("with bacon not olives please", {"toppings": ("bacon",)}),
+        ("olives instead of bacon i guess", {"toppings": ("olives",)}),
+        ("large not small and with olives", {"size": "large", "toppings": ("olives",)}),
+        ("small don't forget the bacon", None),
+        ("no wait a small one", {"size": "small"}),
     ],
 )
-def test_what_is_not_wanted_is_not_taken_for_an_answer(pizza, text, is_clear_enough):
+def test_what_is_named_and_not_wanted_is_not_taken_for_an_answer(pizza, text, tags):
     grammar = form_grammar(pizza, load_grammar(pizza.grammar))
     found = parse(grammar, text)
-    assert is_clear(grammar, Utterance(text, found.rule, found.tags)) == is_clear_enough
+    meant = wanted(grammar, Utterance(text, found.rule, found.tags))
+    assert (None if meant is None else meant.tags) == tags
