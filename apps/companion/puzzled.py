@@ -247,7 +247,7 @@ def _answers(companion: Companion, grammar: Grammar) -> list[str]:
     found = dict.fromkeys(
         text
         for rule in own
-        for text in different(grammar, rule)
+        for text in (*grammar.rules[rule].examples, *different(grammar, rule))
         if not asked or asked in getattr(parse(grammar, text), "tags", ())
     )
     return [as_said(text) for text in islice(found, 2)]

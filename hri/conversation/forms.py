@@ -86,9 +86,10 @@ class Form:
         return next((slot for slot in self.slots if slot.name not in values), None)
 
     def filled_in(self, text: str, values: Mapping[str, Any]) -> str:
-        """A text of the form with the slots in it, as they are said."""
+        """A text of the form with the slots in it, as they are said; it begins with a capital."""
         said = {slot.name: _said(values.get(slot.name, NOTHING), slot) for slot in self.slots}
-        return text.format_map(said)
+        filled = text.format_map(said)
+        return filled[:1].upper() + filled[1:]
 
 
 def _said(value: Any, slot: Slot) -> str:

@@ -123,7 +123,8 @@ def write_shown_files(page: Path, folder: Path) -> None:
 
 
 def played(robot: Robot, dialogue: Dialogue) -> list[Line]:
-    """The lines that were said when a robot of the devices TYPED heard those of the people.
+    """The lines that were said when a robot of the devices TYPED heard those of the people, up to
+    the first that is not as shown.
 
     Each line is typed a second after the robot has said what stands before it. After a wait, the
     robot may say other things by itself before the next line.
@@ -143,9 +144,10 @@ def played(robot: Robot, dialogue: Dialogue) -> list[Line]:
                     happened.append((who, text))
                 else:
                     said = await _heard(context, queue, text if has_waited else "*")
-                    if said is None:
-                        break
-                    happened.append((who, said))
+                    if said is not None:
+                        happened.append((who, said))
+                    if said is None or not _is_as_shown(said, text):
+                        break  # the rest would be about something else
                 has_waited = who == "wait"
         robot.finish()
 

@@ -63,11 +63,14 @@ def _has_conflict(name: str, folder: Path, grammar: Grammar) -> bool:
         first, second = pair.first, pair.second
         report(
             f'{name}: "{first.text}" <{first.rule}> sounds like "{second.text}" <{second.rule}>'
-            f" (distance {pair.distance:.2f})"
+            f" (distance {pair.distance:.2f}) - where one is taken for the other, use other words"
         )
     if not taken:
         count = "1 command" if len(own) == 1 else f"{len(own)} commands"
-        report(f"{name}: fine; {count}, {len(alike)} sentences that sound like others")
+        sounding = (
+            "1 sentence that sounds" if len(alike) == 1 else f"{len(alike)} sentences that sound"
+        )
+        report(f"{name}: fine; {count}, {sounding} like others")
     return bool(taken)
 
 

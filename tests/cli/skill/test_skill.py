@@ -26,11 +26,21 @@ def told(capsys, *words):
 def test_a_new_skill_is_plugged_in_passes_its_test_and_has_no_conflict(own, capsys):
     status, lines = told(capsys, "new", "magic")
     assert status == 0
-    assert lines[0] == f"{own / 'magic'}: a skill that draws cards. Next:"
+    assert (
+        lines[0] == f"{own / 'magic'}: a skill that draws cards so far; change what you like. Next:"
+    )
     assert "magic      on   Draws cards." in told(capsys, "list")[1]
     assert told(capsys, "test", "magic") == (0, ["magic: 1 dialogue as shown"])
     status, lines = told(capsys, "check", "magic")
     assert (status, lines[-1].startswith("magic: fine; 1 command")) == (0, True)
+
+
+def test_a_new_skill_with_a_form_asks_and_keeps_its_timer(own, capsys):
+    status, lines = told(capsys, "new", "brew", "--form")
+    assert (status, lines[-1].endswith("say: make me some tea")) == (0, True)
+    assert told(capsys, "test", "brew") == (0, ["brew: 1 dialogue as shown"])
+    status, lines = told(capsys, "check", "brew")
+    assert (status, lines[-1].startswith("brew: fine; 1 command")) == (0, True)
 
 
 def test_a_skill_anywhere_is_tested_by_its_path(tmp_path, capsys):
