@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from hri.conversation.form_grammar import LESS, MORE, SLOT, YES, form_grammar, wanted
-from hri.conversation.forms import NOTHING, Form
+from hri.conversation.forms import NOTHING, Form, Slot
 from hri.core.signals import Utterance
 from hri.robot.verbs import Ending, ask_in_force, say
 from hri.speech.behaviors import Listener, Voice
@@ -16,7 +16,7 @@ from hri.speech.tasks import answers_of
 from hri.task.context import TaskContext
 
 ASKED = "form.asked"
-"""Slot of the board with the tag that is asked for; empty while another question is open."""
+"""Slot of the board with the tag that a form asks for."""
 BREATH = 0.3
 """Seconds in which it begins to answer what else was said, and between looks at its voice."""
 
@@ -35,9 +35,7 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
             slot = form.next_slot(values)
             if slot is None and not form.confirm:
                 return values
-            question = slot.ask if slot else form.filled_in(form.confirm, values)
-            context.board.slot(ASKED).set(slot.name if slot else "", context.clock.now())
-            answer = await _answer(context, form, question, is_yes_or_no=slot is None)
+            answer = await _asked(context, form, slot, values)
             if isinstance(answer, Ending):
                 return None
             if answer is None:
@@ -59,6 +57,20 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
     return None
 
 
+async def _asked(
+    context: TaskContext, form: Form, slot: Slot | None, values: Mapping[str, Any]
+) -> bool | Utterance | Ending | None:
+    """The answer to the question for a slot, or whether all is right."""
+    if slot is None:
+        return await _answer(context, form, form.filled_in(form.confirm, values), is_yes_or_no=True)
+    asked = context.board.slot(ASKED)
+    asked.set(slot.name, context.clock.now())
+    try:
+        return await _answer(context, form, slot.ask)
+    finally:
+        asked.clear()
+
+
 async def _changed(
     context: TaskContext, form: Form, values: Mapping[str, Any]
 ) -> dict[str, Any] | None:
@@ -73,9 +85,15 @@ def _told(form: Form, answer: Utterance, values: Mapping[str, Any]) -> dict[str,
         return {answer.tags["slot"]: None}
     told = form.taken(answer.tags)
     if answer.rule == MORE:
-        return {name: (*_listed(values, name), *items) for name, items in told.items()}
+        return {
+            name: tuple(dict.fromkeys((*_listed(values, name), *items)))
+            for name, items in told.items()
+        }
     if answer.rule == LESS:
-        return {name: _left(_listed(values, name), items) for name, items in told.items()}
+        may_be_other = answer.text.startswith("no ")
+        return {
+            name: _left(_listed(values, name), items, may_be_other) for name, items in told.items()
+        }
     return told
 
 
@@ -84,10 +102,10 @@ def _listed(values: Mapping[str, Any], name: str) -> tuple[Any, ...]:
     return values.get(name) or ()
 
 
-def _left(listed: tuple[Any, ...], items: tuple[Any, ...]) -> Any:
-    """A list without some things; those alone where none of them is in it: "no, olives"."""
+def _left(listed: tuple[Any, ...], items: tuple[Any, ...], may_be_other: bool) -> Any:
+    """A list without some things. None of them in it may mean those instead: "no, olives"."""
     if not set(items) & set(listed):
-        return items
+        return items if may_be_other else listed or None
     return tuple(one for one in listed if one not in items) or NOTHING
 
 

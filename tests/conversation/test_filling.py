@@ -76,3 +76,24 @@ def test_who_never_decides_is_not_asked_forever(filled):
     values, asked = filled(["change the size"] * 99, {"size": "small"})
     assert values is None
     assert len(asked) == 9
+
+
+@pytest.mark.parametrize(
+    ("answers", "toppings"),
+    [
+        (["no olives", "yes"], ("bacon",)),
+        (["no olives", "no bacon", "yes"], ""),
+        (["add olives", "yes"], ("olives", "bacon")),
+        (["no toppings", "add bacon", "yes"], ("bacon",)),
+        (["bacon instead of olives", "yes"], ("bacon",)),
+    ],
+)
+def test_a_list_gets_longer_and_shorter(filled, answers, toppings):
+    known = {"size": "small", "toppings": ("olives", "bacon")}
+    assert filled(answers, known)[0] == {"size": "small", "toppings": toppings}
+
+
+def test_no_may_mean_another_answer_and_without_may_not(filled):
+    values, asked = filled(["without olives", "no olives", "yes"], {"size": "small"})
+    assert values == {"size": "small", "toppings": ("olives",)}
+    assert asked[:2] == ["With which toppings?"] * 2
