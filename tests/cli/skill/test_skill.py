@@ -58,7 +58,7 @@ def test_a_dialogue_that_goes_otherwise_is_told_with_its_place(own, capsys):
     status, lines = told(capsys, "test", "magic")
     assert status == 1
     assert lines == [
-        f'magic: {page}:6:1: line 6, "I draw up to six cards." from robot: '
+        f'magic: {page}:11:1: "I draw up to six cards." from robot: '
         '"I draw up to five cards." from robot instead'
     ]
 

@@ -1,7 +1,7 @@
 """How it looks: another face while it lives, until the robot is started again."""
 
 from hri.face import Face
-from hri.robot.verbs import change_face, say, show
+from hri.robot import verbs
 from hri.task import TaskContext
 
 FACES = ("robot", "astronaut", "person")
@@ -18,8 +18,8 @@ async def put_on_face(context: TaskContext, face: str) -> None:
     place = FACES.index(now) + 1 if now in FACES else 0
     wanted = {"usual": usual, "other": FACES[place % len(FACES)]}.get(face, face)
     if wanted == now:
-        await say(context, "I look like that already.")
+        await verbs.say(context, "I look like that already.")
         return
-    await change_face(context, wanted)
-    await say(context, "That's better. Hello again." if face == "usual" else "How do I look?")
-    await show(context, "happy", 2.0)
+    await verbs.change_face(context, wanted)
+    await verbs.say(context, "That's better. Hello again." if face == "usual" else "How do I look?")
+    await verbs.show(context, "happy", 2.0)
