@@ -248,9 +248,15 @@ def _answers(companion: Companion, grammar: Grammar) -> list[str]:
         text
         for rule in own
         for text in (*grammar.rules[rule].examples, *different(grammar, rule))
-        if not asked or asked in getattr(parse(grammar, text), "tags", ())
+        if not asked or _gives(grammar, text, asked)
     )
     return [as_said(text) for text in islice(found, 2)]
+
+
+def _gives(grammar: Grammar, text: str, tag: str) -> bool:
+    """Whether a sentence answers the question for a tag."""
+    found = parse(grammar, text)
+    return found is not None and tag in found.tags
 
 
 def _is_for_it(companion: Companion, heard: Mapping[str, Any]) -> bool:

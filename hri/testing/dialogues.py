@@ -7,7 +7,7 @@
     robot: Your tea is ready.
     ```
 
-A `*` stands for any words. A wait passes at once; what it says by itself then does not count.
+A `*` stands for any words. What the robot says by itself during a wait does not count.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ AFTER = 1.0
 PATIENCE = 20.0
 """Seconds without a word after which nothing more is waited for."""
 LONGEST_WAIT = 3600.0
-"""Seconds of one wait, which a machine computes in a minute or two."""
+"""Seconds of one wait, which take a machine some minutes."""
 UNITS = {"second": 1.0, "minute": 60.0, "hour": 3600.0}
 
 Who = Literal["you", "robot", "wait"]
