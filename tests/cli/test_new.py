@@ -200,5 +200,5 @@ def test_a_folder_that_is_not_there_is_one_line(where, folder, capsys):
 
 
 def test_every_kind_has_its_template():
-    assert {path.name for path in Path(TEMPLATES).iterdir()} == {*KINDS, "skill"}
+    assert {path.name for path in Path(TEMPLATES).iterdir()} == {*KINDS, "skill", "form_skill"}
     assert {path.name for path in Path(DRIVER_TEMPLATES).iterdir()} == set(OF_DRIVERS)

@@ -41,7 +41,7 @@ def run(options: argparse.Namespace) -> int:
     report(f"  hri skill test {name}     # plays the dialogue of its README.md")
     report(f"  hri skill check {name}    # mistakes, and sentences that sound like others")
     if options.to is None:
-        print(f"  hri companion --config typed    # say: {BEGINNING[template]}")
+        report(f"  hri companion --config typed    # say: {BEGINNING[template]}")
     else:
         report(f"  cp -r {folder} {own_folder()}/    # plugs it in")
     return 0
