@@ -5,19 +5,19 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from hri.core.signals import FaceBox, HeadPose, Image
+from hri.core.signals import FaceBox, Frame, HeadPose, Image
 from hri.vision.detectors.blazeface import BlazeFace
+from hri.vision.detectors.detector_choice import Detectors
 from hri.vision.detectors.face import FaceFinder
 from hri.vision.detectors.haar import HaarDetector
 from hri.vision.gestures.gesture_patterns import answer_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
+from hri.vision.tracking.people import PeopleTracker
 from tests.recorded import HERE, picture
 
 PORTRAITS = {"biden": (0.59, 0.18), "obama": (0.54, 0.23), "obama2": (0.53, 0.36)}
 """Where the middle of the face is: shares of the width and of the height."""
 EMPTY = ("brick", "chelsea", "coffee", "rocket")
-TURNS = range(5)
-"""A finder looks at some parts of a picture in turn."""
 RATE = 30
 """Pictures a second of the films."""
 DEPTH = 0.75
@@ -31,9 +31,8 @@ def middle(box: FaceBox, image: Image) -> tuple[float, float]:
 
 def check_finds_one(finder: FaceFinder, name: str) -> None:
     image = picture(name)
-    for turn in TURNS:
-        (face,) = finder.find(image, turn)
-        assert middle(face.box, image) == pytest.approx(PORTRAITS[name], abs=0.05)
+    surest = finder.find(image)[0]
+    assert middle(surest.box, image) == pytest.approx(PORTRAITS[name], abs=0.05)
 
 
 @pytest.mark.parametrize("name", PORTRAITS)
@@ -47,13 +46,29 @@ def test_the_cascade_finds_the_face_of_a_portrait(name: str) -> None:
 
 
 def test_the_network_finds_a_face_in_profile(blazeface: BlazeFace) -> None:
-    assert [len(blazeface.find(picture("photographer"), turn)) for turn in TURNS] == [1] * 5
+    assert len(blazeface.find(picture("photographer"))) == 1
+
+
+def counted(image: Image, detectors: Detectors) -> int:
+    """How many people are seen while the picture stays, until all of it was searched."""
+    tracker = PeopleTracker(detectors)
+    return max(len(tracker.see(Frame(image, n / 10, n)).persons) for n in range(60))
+
+
+@pytest.mark.parametrize("name", PORTRAITS)
+def test_a_portrait_is_one_person(name: str, detectors: Detectors) -> None:
+    assert counted(picture(name), detectors) == 1
+
+
+@pytest.mark.parametrize("name", EMPTY)
+def test_an_empty_picture_is_nobody(name: str, detectors: Detectors) -> None:
+    assert counted(picture(name), detectors) == 0
 
 
 @pytest.mark.parametrize("name", EMPTY)
 def test_nobody_is_where_nobody_is(name: str, blazeface: BlazeFace) -> None:
     finders: tuple[FaceFinder, ...] = (blazeface, HaarDetector())
-    assert [finder.find(picture(name), turn) for finder in finders for turn in TURNS] == [[]] * 10
+    assert [finder.find(picture(name)) for finder in finders] == [[], []]
 
 
 def told(film: str) -> Counter[str]:

@@ -13,16 +13,12 @@ from typing import Any
 from hri.cli.terminal.progress_line import progress
 from hri.core.errors import HriError
 from hri.core.quoting import report
-from hri.core.signals import ColorBlob, FaceBox, FoundObject, Frame, Image, Person
+from hri.core.signals import ColorBlob, FaceBox, FoundObject, Image, Person
 from hri.hal.drivers.still_image import StillImage, read_still
-from hri.vision.detectors.face import FoundFace, is_same
 
 Row = dict[str, Any]
 Look = Callable[[StillImage], list[Row]]
 
-SEARCHES, EVERY = 3, 0.5
-"""How often a picture is searched, and seconds between that the tracker is told: each search looks
-at other parts of it more closely."""
 BODY_HEIGHT = 1.7
 """Meters, of an adult's body."""
 
@@ -74,7 +70,7 @@ def _looks(options: argparse.Namespace) -> dict[str, Look]:
 
 def _people(options: argparse.Namespace) -> Look:
     from hri.vision.detectors.detector_choice import load_detectors
-    from hri.vision.tracking.people import PeopleTracker
+    from hri.vision.tracking.still import see_still
 
     detectors = load_detectors(options.detector)
     for problem in detectors.problems:
@@ -82,22 +78,11 @@ def _people(options: argparse.Namespace) -> Look:
     view = _view(options)
 
     def look(still: StillImage) -> list[Row]:
-        tracker = PeopleTracker(detectors, view)
-        found: list[FoundFace] = []
-        for number in range(SEARCHES):
-            seen = tracker.see(Frame(still.image, EVERY * number, number))
-            found += detectors.finder.find(still.image, number)
-        persons = [person for person in seen.persons if person.is_visible]
-        rows = [_person_row(still, person, _confidence(person, found)) for person in persons]
-        return rows + _bodies(still, persons, view)
+        seen = see_still(detectors, still.image, view)
+        rows = [_person_row(still, person, seen.confidence(person)) for person in seen.persons]
+        return rows + _bodies(still, seen.persons, view)
 
     return look
-
-
-def _confidence(person: Person, found: Iterable[FoundFace]) -> float:
-    """How sure the detector was of the face, 0 to 1."""
-    box = person.pose.box
-    return max((face.score for face in found if box and is_same(face.box, box)), default=0.0)
 
 
 def _bodies(still: StillImage, persons: Iterable[Person], view: Any) -> list[Row]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import astuple, dataclass
 from typing import Protocol
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import FaceBox, Image
+from hri.vision.detectors.search_squares import Square
 
 Places = NDArray[np.float32]
 """Places in a picture, shape [n, 2]: x and y in pixels."""
@@ -36,10 +37,14 @@ class FoundFace:
 class FaceFinder(Protocol):
     """Finds the faces of a picture; remembers nothing of those before."""
 
-    def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
-        """The faces, the surest first; none for what is not an 8-bit RGB picture.
+    def squares(self, width: int, height: int) -> list[Square]:
+        """The parts of a picture of this size that a whole search looks at, the largest first."""
+        ...
 
-        `turn` counts the searches, for finders that look at some parts of the picture in turn.
+    def find(self, image: Image, squares: Sequence[Square] | None = None) -> list[FoundFace]:
+        """The faces in these parts, or in all of them, the surest first.
+
+        None for what is not an 8-bit RGB picture.
         """
         ...
 
@@ -58,7 +63,8 @@ def is_same(first: FaceBox, second: FaceBox) -> bool:
 
 
 def merged(found: Iterable[FoundFace]) -> list[FoundFace]:
-    """One face for all findings of the same one: their average, weighted by their scores.
+    """One face for all findings of the same one: the average of those of about the surest one's
+    size, weighted by their scores.
 
     Either all findings have points, or none. The surest face comes first.
     """
@@ -67,7 +73,8 @@ def merged(found: Iterable[FoundFace]) -> list[FoundFace]:
     faces = []
     while rest:
         best = rest[0]
-        faces.append(_average([face for face in rest if is_same(face.box, best.box)], best.score))
+        alike = [face for face in rest if overlap(face.box, best.box) > SAME or face is best]
+        faces.append(_average(alike, best.score))
         rest = [face for face in rest[1:] if not is_same(face.box, best.box)]
     return faces
 

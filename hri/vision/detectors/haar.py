@@ -5,6 +5,7 @@ Viola and Jones, "Rapid object detection using a boosted cascade of simple featu
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import cv2
@@ -14,6 +15,7 @@ from hri.core.native_path import native_path
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, merged
 from hri.vision.detectors.preprocessing import gray_picture
+from hri.vision.detectors.search_squares import Square, whole
 
 FOLDER = Path(cv2.__file__).parent / "data"
 CASCADE = "haarcascade_frontalface_alt2.xml"
@@ -32,8 +34,12 @@ class HaarDetector:
         with native_path(FOLDER / CASCADE) as name:
             self._cascade = cv2.CascadeClassifier(name)
 
-    def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
-        """All faces, the surest first; none for an invalid picture."""
+    def squares(self, width: int, height: int) -> list[Square]:
+        """One: it looks at whole pictures."""
+        return [whole(width, height)]
+
+    def find(self, image: Image, squares: Sequence[Square] | None = None) -> list[FoundFace]:
+        """All faces of the picture, the surest first; none for an invalid picture."""
         picture = gray_picture(image)
         if picture is None or min(picture.gray.shape) < SMALLEST:
             return []

@@ -6,6 +6,7 @@ face_detection_yunet_2023mar.onnx of the OpenCV zoo (MIT), comes with no package
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import cv2
@@ -16,6 +17,7 @@ from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, merged
 from hri.vision.detectors.opencv_network import read_network_file
 from hri.vision.detectors.preprocessing import is_picture
+from hri.vision.detectors.search_squares import Square, whole
 
 SEEN_SIDE = 320
 """Pixels of the longer side of the picture that is looked at: 8 ms, faces from 24 of 640."""
@@ -44,8 +46,12 @@ class YuNet:
         except cv2.error as error:
             raise NotAvailable(f"{file}: damaged, or not YuNet - {remedy}") from error
 
-    def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
-        """All faces, the surest first; none for an invalid picture."""
+    def squares(self, width: int, height: int) -> list[Square]:
+        """One: it looks at whole pictures."""
+        return [whole(width, height)]
+
+    def find(self, image: Image, squares: Sequence[Square] | None = None) -> list[FoundFace]:
+        """All faces of the picture, the surest first; none for an invalid picture."""
         if not is_picture(image):
             return []
         height, width = image.shape[:2]

@@ -51,7 +51,7 @@ class HeldUpFinder:
 
     def find(self, image: Image, faces: Iterable[FaceBox] = ()) -> HeldUp:
         """`image` is uint8, [height, width, 3], RGB; `faces` are those that are known already."""
-        seen = [face.box for face in self._finder.find(image) if face.score >= SURE]
+        seen = self._near_faces(image)
         boxes = [*faces, *seen]
         outline = whole(image) if self._is_whole else in_the_middle(image, boxes)
         place = middle(image)
@@ -61,6 +61,13 @@ class HeldUpFinder:
         if outline is None or not (self._is_whole or _is_edged(image, outline)):
             return HeldUp(None, NOTHING)
         return HeldUp(outline)
+
+    def _near_faces(self, image: Image) -> list[FaceBox]:
+        """Those as near as whoever holds the thing up."""
+        height, width = image.shape[:2]
+        squares = self._finder.squares(width, height)
+        large = [square for square in squares if square.side >= squares[0].side]
+        return [face.box for face in self._finder.find(image, large) if face.score >= SURE]
 
 
 def _is_inside(box: FaceBox, place: Outline) -> bool:

@@ -70,6 +70,10 @@ class Identity:
         coasting = min(COASTING, max(0.0, time - self._time))
         return self._x + self._pace[0] * coasting, self._y + self._pace[1] * coasting
 
+    def expected_face(self, time: float) -> tuple[float, float, float]:
+        """Middle and size of it then, in pixels."""
+        return *self.expected(time), self._breadth
+
     def cost(self, time: float, face: FaceTrack, look: Look) -> float:
         """How unlikely it is that this face is theirs; above STRANGER it is not."""
         unlike = math.inf if self._look is None else difference(self._look, look)

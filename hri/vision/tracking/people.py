@@ -1,9 +1,9 @@
 """Everyone in the pictures of a camera: found, followed, told apart, and described.
 
-A search of the whole picture is made only while it is needed: now and then for newcomers, more
-often while someone is missing. Between, each face is followed by itself. Faces that come close to
-each other may be taken for each other, or cover each other; who is who is settled again by looks as
-soon as they are apart again.
+Each face is followed by itself. The search for others looks at a few squares of a picture, and at
+all of them within some pictures: now and then for newcomers, more often while someone is missing,
+and first where they should be. Faces that come close to each other may be taken for each other, or
+cover each other; who is who is settled again by looks as soon as they are apart again.
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ from hri.vision.attention import Attending
 from hri.vision.camera_view import CameraView
 from hri.vision.detectors.detector_choice import Detectors, load_detectors
 from hri.vision.detectors.face import FoundFace, overlap
-from hri.vision.detectors.mesh import region_of
+from hri.vision.detectors.mesh import region_of, region_of_landmarks
 from hri.vision.detectors.preprocessing import gray_picture
+from hri.vision.detectors.search_squares import SearchPlan
 from hri.vision.engagement import Zones
 from hri.vision.tracking.appearance import Look, look_of
 from hri.vision.tracking.assignment import assigned
@@ -37,13 +38,15 @@ MOST = 8
 MOST_FITS = 4
 """Meshes that are fitted in one picture; of more faces, those of the others take turns."""
 SEARCH_ALONE = 0.1
-"""Seconds between two searches while nobody is seen."""
+"""Seconds between two searches of the largest squares while nobody is seen."""
 SEARCH_MISSING = 0.2
-"""Seconds between two searches while someone is out of sight."""
+"""The same while someone is out of sight."""
 SEARCH_NEWCOMERS = 0.4
-"""Seconds between two searches else."""
+"""The same else."""
 SEARCH_BOXES = 0.3
-"""Seconds between two searches at most when there is no mesh to say where the faces are."""
+"""The same at most when there is no mesh to say where the faces are."""
+SECOND_LOOK = 0.5
+"""Seconds within which a face must be found again when there is no mesh to confirm it."""
 CLOSE, APART = 1.1, 1.4
 """Sizes of the face between two faces that may be mixed up, and that no longer can."""
 SAME_FACE = 0.4
@@ -93,13 +96,13 @@ class PeopleTracker:
         if not 0 < elapsed <= MEMORY or sight.size != self._size:
             self._forget()
             self._size = sight.size
+            self._plan = SearchPlan(self._finder.squares(*sight.size))
         elif elapsed > MAX_GAP:
             self._lose_all()
         self._follow(sight)
         self._mix(sight.time)
-        if sight.time - self._searched >= self._interval():
-            self._search(sight)
-            self._mix(sight.time)
+        self._search(sight)
+        self._mix(sight.time)
         self._settle(sight)
         self._note(sight)
         return self._described(sight)
@@ -108,17 +111,16 @@ class PeopleTracker:
         self._known: list[PersonTrack] = []
         self._mixed: set[frozenset[int]] = set()
         """Numbers of each two whose faces may have been mixed up."""
-        self._candidates: list[FoundFace] = []
-        self._searched = -math.inf
-        self._turns = itertools.count()
-        """Of the searches, so that the finder sees the same in the same film."""
+        self._candidates: list[tuple[float, FoundFace]] = []
+        """Faces that were found and not confirmed yet, and when."""
+        self._plan = SearchPlan(())
         self._attending = Attending()
 
     def _lose_all(self) -> None:
         """Look for everyone again: people may have changed places."""
         for somebody in self._known:
             somebody.face = None
-        self._searched = -math.inf
+        self._plan = SearchPlan(self._finder.squares(*self._size))
 
     def _seen(self) -> Iterator[tuple[PersonTrack, FaceTrack]]:
         """Who is in sight, with their faces."""
@@ -153,17 +155,26 @@ class PeopleTracker:
         return interval if self._mesh is not None else min(interval, SEARCH_BOXES)
 
     def _search(self, sight: Sight) -> None:
-        self._searched = sight.time
+        interval = self._interval()
+        missing = [s.identity.expected_face(sight.time) for s in self._known if s.face is None]
+        fits = 0 if self._mesh is None else min(MOST_FITS, sum(1 for _ in self._seen()))
+        squares = self._plan.due(sight.time, interval, fits, missing)
+        if not squares:
+            return
         strangers = []
-        turn = next(self._turns)
-        for found in self._finder.find(sight.image, turn):
+        for found in self._finder.find(sight.image, squares):
             owner = self._owner(found)
             if owner is None:
                 strangers.append(found)
             elif self._mesh is None:
                 owner.find_again(found, sight)
         room = MOST - sum(1 for _ in self._seen())
-        self._welcome(sight, self._confirmed(sight, strangers)[: max(0, room)])
+        before = [
+            (time, found) for time, found in self._candidates if sight.time - time < SECOND_LOOK
+        ]
+        self._candidates = before + [(sight.time, found) for found in strangers]
+        faces = self._confirmed(sight, strangers, [found for _, found in before])
+        self._welcome(sight, faces[: max(0, room)])
 
     def _owner(self, found: FoundFace) -> FaceTrack | None:
         """The face that is followed already where one was found."""
@@ -174,9 +185,10 @@ class PeopleTracker:
                 return face
         return None
 
-    def _confirmed(self, sight: Sight, strangers: list[FoundFace]) -> list[FaceTrack]:
-        """Those that are faces: a mesh fits, or without one, found twice at the same place."""
-        before, self._candidates = self._candidates, strangers
+    def _confirmed(
+        self, sight: Sight, strangers: list[FoundFace], before: list[FoundFace]
+    ) -> list[FaceTrack]:
+        """Those that are faces: a mesh fits, or without one, found before at the same place."""
         faces: list[FaceTrack] = []
         for found in strangers[:MOST]:
             known = [*faces, *(other for _, other in self._seen())]
@@ -195,10 +207,19 @@ class PeopleTracker:
         return faces
 
     def _fitted(self, sight: Sight, found: FoundFace) -> Landmarks | None:
+        """The mesh of what was found, if it is a face.
+
+        It must fit twice: where a pattern looks like a face, no mesh fits again to the first one.
+        """
         assert self._mesh is not None
-        region = region_of(found)
-        fitted = self._mesh.fit(sight.image, region)
-        return fitted.landmarks if fitted is not None and is_face(fitted, region) else None
+        region, landmarks = region_of(found), None
+        for _ in range(2):
+            fitted = self._mesh.fit(sight.image, region)
+            if fitted is None or not is_face(fitted, region):
+                return None
+            landmarks = fitted.landmarks
+            region = region_of_landmarks(landmarks)
+        return landmarks
 
     def _welcome(self, sight: Sight, faces: list[FaceTrack]) -> None:
         """Give each new face to whoever of the missing it fits, else to a new person."""
