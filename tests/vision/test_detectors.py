@@ -266,7 +266,7 @@ class TestYuNet:
         assert face.box == FaceBox(200, 160, 120, 140)
         assert face.score == pytest.approx(0.9)
         assert face.points is not None
-        assert face.points[:2].tolist() == [[220, 200], [300, 200]]
+        assert face.points.tolist() == [[220, 200], [300, 200], [260, 240], [260, 280]]
         assert finder.find(np.zeros((480, 640, 3), np.uint8)) == []
         assert finder.find(np.zeros((480, 640), np.uint8)) == []
 

@@ -29,12 +29,17 @@ GRIDS = ((16, 2), (8, 6))
 POINTS = 6
 """Eyes, tip of the nose, mouth, ears."""
 LEAST_SCORE = 0.55
+AROUND = 4.0
+"""Side of the square in which a face is looked at again, in sizes of the face: the network sees
+faces best that are a quarter of its picture, and patterns that looked like one no longer do."""
+SAME_PLACE = 0.5
+"""Sizes of the face by which its middle may move then."""
 SEEN_SIDE = 800
 """Pixels; of a larger picture only each second, third ... pixel is looked at."""
 
 
 class BlazeFace:
-    """Finds faces in about 4 ms a square.
+    """Finds faces in about 4 ms a square, and 4 ms for each face.
 
     Raises NotAvailable when the file is not the network.
     """
@@ -66,7 +71,21 @@ class BlazeFace:
                 sparse, Square(one.left // step, one.top // step, one.side // step)
             )
         ]
-        return [_scaled(face, step) for face in merged(found)]
+        sure = [again for face in merged(found) if (again := self._seen_again(sparse, face))]
+        return [_scaled(face, step) for face in merged(sure)]
+
+    def _seen_again(self, image: Image, face: FoundFace) -> FoundFace | None:
+        """The face as it is seen in a square around it; None where a pattern is not seen again."""
+        x, y = face.middle
+        breadth = max(face.box.width, face.box.height)
+        side = round(min(AROUND * breadth, max(image.shape[:2])))
+        square = Square(round(x - side / 2), round(y - side / 2), side)
+        near = [
+            other
+            for other in self._look(image, square)
+            if math.dist(other.middle, face.middle) < SAME_PLACE * breadth
+        ]
+        return max(near, key=lambda other: other.score, default=None)
 
     def _look(self, image: Image, square: Square) -> list[FoundFace]:
         picture = evened(_part(image, square)) * 2 - 1

@@ -29,9 +29,14 @@ class FoundFace:
     score: float
     """How surely it is a face, 0 to 1."""
     points: Places | None = None
-    """The person's right eye (at the left of the picture), left eye, tip of the nose, and further
-    points of the detector; None when it gives only a box.
+    """The person's right eye (at the left of the picture), left eye, tip of the nose, middle of the
+    mouth, and further points of the detector; None when it gives only a box.
     """
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Of the box, in pixels."""
+        return self.box.x + self.box.width / 2, self.box.y + self.box.height / 2
 
 
 class FaceFinder(Protocol):

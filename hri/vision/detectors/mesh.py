@@ -26,6 +26,8 @@ MARGIN = 1.5
 """Width of the region relative to the face, as in MediaPipe."""
 RIGHT_EYE, LEFT_EYE = 33, 263
 """Outer corners of the person's eyes; the right eye is at the left of the picture."""
+SHARED = np.array([(33, 133), (362, 263), (1, 1), (13, 14)])
+"""Between which two points of the mesh the eyes, the nose and the mouth of a finder lie."""
 SMOOTHING = 1.2
 """Pixels of the network's picture by which it is smoothed: it halves the noise of the pose, and
 neither its gain nor the presence change. More in the dark: what is brightened, noise and all, is
@@ -114,6 +116,18 @@ def region_of_landmarks(landmarks: Landmarks) -> Region:
     x, y = ((low + high) / 2).tolist()
     side = MARGIN * float((high - low).max())
     return Region(cosine * x - sine * y, sine * x + cosine * y, side, roll)
+
+
+def disagreement(found: FoundFace, landmarks: Landmarks) -> float:
+    """How far a finder's eyes, nose and mouth are from those of the mesh, in sizes of the face.
+
+    0 for a finder that gives no points.
+    """
+    if found.points is None:
+        return 0.0
+    places = landmarks[SHARED, :2].mean(axis=1)
+    away = np.linalg.norm(places - found.points[: len(places)], axis=1).mean()
+    return float(away) * MARGIN / region_of_landmarks(landmarks).side
 
 
 def _is_in(region: Region, image: Image) -> bool:

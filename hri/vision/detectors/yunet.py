@@ -65,6 +65,7 @@ class YuNet:
         found = []
         for row in np.asarray(rows, np.float64):
             x, y, across, down = (row[:4] * scale).tolist()
-            points = (row[4:14].reshape(POINTS, 2) * scale).astype(np.float32)
+            *others, right, left = row[4:14].reshape(POINTS, 2) * scale
+            points = np.array([*others, (right + left) / 2], np.float32)
             found.append(FoundFace(FaceBox(x, y, across, down), float(row[14]), points))
         return merged(found)

@@ -19,7 +19,7 @@ from hri.vision.attention import Attending
 from hri.vision.camera_view import CameraView
 from hri.vision.detectors.detector_choice import Detectors, load_detectors
 from hri.vision.detectors.face import FoundFace, overlap
-from hri.vision.detectors.mesh import region_of, region_of_landmarks
+from hri.vision.detectors.mesh import disagreement, region_of, region_of_landmarks
 from hri.vision.detectors.preprocessing import gray_picture
 from hri.vision.detectors.search_squares import SearchPlan
 from hri.vision.engagement import Zones
@@ -51,6 +51,9 @@ CLOSE, APART = 1.1, 1.4
 """Sizes of the face between two faces that may be mixed up, and that no longer can."""
 SAME_FACE = 0.4
 """Sizes of the face; nearer to each other, two faces are one."""
+DOUBT, NO_FACE = 0.4, 0.5
+"""Sizes of the face by which finder and mesh may disagree, for each point of the score above that
+of what is as likely no face. Of faces in photographs 95 % stay below half of that."""
 SAME_BOX = 0.4
 """Overlap of two boxes, found one after the other, that are of one face."""
 STAYING = 0.03
@@ -209,7 +212,8 @@ class PeopleTracker:
     def _fitted(self, sight: Sight, found: FoundFace) -> Landmarks | None:
         """The mesh of what was found, if it is a face.
 
-        It must fit twice: where a pattern looks like a face, no mesh fits again to the first one.
+        It must fit twice, with eyes, nose and mouth where the finder has them: in a pattern that
+        looks like a face each sees them elsewhere, and the finder is not sure.
         """
         assert self._mesh is not None
         region, landmarks = region_of(found), None
@@ -219,7 +223,9 @@ class PeopleTracker:
                 return None
             landmarks = fitted.landmarks
             region = region_of_landmarks(landmarks)
-        return landmarks
+        assert landmarks is not None
+        is_doubtful = disagreement(found, landmarks) > DOUBT * (found.score - NO_FACE)
+        return None if is_doubtful else landmarks
 
     def _welcome(self, sight: Sight, faces: list[FaceTrack]) -> None:
         """Give each new face to whoever of the missing it fits, else to a new person."""
