@@ -134,8 +134,8 @@ def tell(recordings: Sequence[Recording], patterns: Sequence[Pattern]) -> Told:
     """Follow all recordings with several draws of noise, and try all choices on each."""
     nod, shake = patterns
     rows = {
-        "nod": (nod.axis, _asked(nod, 3), _nod_choices(_asked(nod, 2))),
-        "shake": (shake.axis, _asked(shake, 3), _shake_choices(_asked(shake, 2))),
+        "nod": (nod.axis, _longer(nod), _nod_choices(_single(nod))),
+        "shake": (shake.axis, _longer(shake), _shake_choices(_single(shake))),
     }
     moments: dict[str, list[NDArray[np.float64]]] = {kind: [] for kind in rows}
     numbers = [number for number in range(len(recordings)) for _ in range(SEEDS)]
@@ -146,7 +146,7 @@ def tell(recordings: Sequence[Recording], patterns: Sequence[Pattern]) -> Told:
         for index, pose in enumerate(poses):
             movement.add(pose.time, (pose.pitch, pose.yaw, pose.roll))
             for kind, (axis, always, choices) in rows.items():
-                if movement.makes(always, axis):
+                if any(movement.makes(row, axis) for row in always):
                     first[kind] = np.minimum(first[kind], index)
                 for choice in np.flatnonzero(np.isinf(first[kind])).tolist():
                     if movement.makes(choices[choice], axis):
@@ -157,8 +157,12 @@ def tell(recordings: Sequence[Recording], patterns: Sequence[Pattern]) -> Told:
     return Told(kinds, np.array(numbers), {kind: np.array(m) for kind, m in moments.items()})
 
 
-def _asked(pattern: Pattern, swings: int) -> PatternRow:
-    return next(row for row in pattern.rows if row.swings == swings and True in row.prompted)
+def _longer(pattern: Pattern) -> list[PatternRow]:
+    return [row for row in pattern.rows if row.swings > 2 and True in row.prompted]
+
+
+def _single(pattern: Pattern) -> PatternRow:
+    return next(row for row in pattern.rows if row.swings == 2)
 
 
 def _nod_choices(row: PatternRow) -> list[PatternRow]:

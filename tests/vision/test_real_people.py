@@ -5,7 +5,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from hri.core.signals import FaceBox, Frame, HeadPose, Image
+from hri.core.signals import FaceBox, Frame, HeadGesture, HeadPose, Image
 from hri.vision.detectors.blazeface import BlazeFace
 from hri.vision.detectors.detector_choice import Detectors
 from hri.vision.detectors.face import FaceFinder
@@ -71,7 +71,7 @@ def test_nobody_is_where_nobody_is(name: str, blazeface: BlazeFace) -> None:
     assert [finder.find(picture(name)) for finder in finders] == [[], []]
 
 
-def told(film: str) -> Counter[str]:
+def gestures(film: str) -> list[HeadGesture]:
     """The gestures of a film that nobody asked for; its head is turned as its points lie."""
     with np.load(HERE / "heads" / "landmarks.npz") as file:
         points = dict(zip(file["feature_names"].tolist(), file[film].T, strict=True))
@@ -86,7 +86,16 @@ def told(film: str) -> Counter[str]:
     recognizer = GestureRecognizer(answer_patterns(), again=1.0)
     poses = np.stack([np.arange(len(head)) / RATE, pitch, yaw, roll], axis=1)
     found = (recognizer.update(HeadPose(*pose)) for pose in poses.tolist())
-    return Counter(gesture.kind for gesture in found if gesture is not None)
+    return [gesture for gesture in found if gesture is not None]
+
+
+def told(film: str) -> Counter[str]:
+    return Counter(gesture.kind for gesture in gestures(film))
+
+
+def test_nods_are_seen_from_the_beginning() -> None:
+    times = [0.0, *(nod.time for nod in gestures("nodding"))]
+    assert max(np.diff(times)) <= 2.0, "the first nods are the widest and slowest"
 
 
 def test_a_person_who_nods_for_half_a_minute_is_seen_to() -> None:

@@ -100,6 +100,27 @@ def test_a_small_nod_counts_only_as_an_answer() -> None:
     assert kinds(small, prompted=True) == ["nod"]
 
 
+def test_a_head_that_fidgets_answers_nothing() -> None:
+    fidgets = series(pitch=swing(1.6, 1.8, 2), noise=0.05)
+    assert kinds(fidgets, prompted=True) == []
+
+
+@pytest.mark.parametrize("hertz", [0.75, 0.9, 1.2])
+def test_wide_nods_take_their_time(hertz: float) -> None:
+    nods = recognize(series(pitch=swing(14, hertz, 3, start=0.1), seconds=5))
+    assert [nod.kind for nod in nods] == ["nod"]
+    assert nods[0].latency <= 2 * 0.5 / hertz, "reported in the third swing"
+    assert kinds(series(yaw=swing(14, 0.75, 3), seconds=6)) == []
+
+
+def test_who_looks_about_from_one_side_far_to_the_other_does_not_shake() -> None:
+    def about(degrees: float) -> list[str]:
+        return kinds(series(yaw=swing(degrees, 1.1, 1.5)))
+
+    assert about(40) == ["shake"]
+    assert about(52) == []
+
+
 def test_what_was_done_before_the_question_is_no_answer() -> None:
     recognizer = GestureRecognizer(ANSWERS)
     poses = series(pitch=swing(9, 1.5, 0.5), seconds=3)
