@@ -55,7 +55,9 @@ class GestureFusion:
 
 def _with_less(pattern: Pattern) -> Pattern:
     """A pattern for the motion: each row with one swing less, which may still be under way."""
-    rows = (replace(row, swings=max(1, row.swings - 1), slowing=1.0) for row in pattern.rows)
+    rows = (
+        replace(row, swings=max(1, row.swings - 1), slowing=1.0, score=None) for row in pattern.rows
+    )
     return replace(pattern, rows=tuple(rows))
 
 

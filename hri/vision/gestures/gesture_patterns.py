@@ -12,6 +12,7 @@ from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.core.toml import Table, load_toml
 from hri.vision.gestures.oscillation import Swing
+from hri.vision.gestures.swing_score import FEATURES, SwingScore
 
 FILE = "gestures.toml"
 NOD, SHAKE = "nod", "shake"
@@ -26,6 +27,8 @@ DIRECTIONS = {
 """The sign of each direction, seen from the person."""
 WHEN = {"always": (False, True), "asked": (True,), "unasked": (False,)}
 """Whether a row counts without, or with, a question that waits for an answer."""
+HEAVIEST = 100.0
+"""Most of a weight of a score, either way."""
 MOST_GESTURES = 50
 MOST_ROWS = 20
 
@@ -56,6 +59,8 @@ class PatternRow:
     """Seconds that the head must stay where the last swing led it."""
     direction: int
     """Sign of the first swing; 0 for either."""
+    score: SwingScore | None
+    """What the swings must score above 0 by; None asks nothing."""
     prompted: tuple[bool, ...]
     """For which states of "an answer is expected" the row counts."""
 
@@ -149,6 +154,8 @@ def _row(axis: str, table: Table) -> PatternRow:
     hold = table.number("hold_s", 0.0, minimum=0.0, maximum=2.0)
     if swings == 1 and not hold:
         raise table.error(None, "one swing is any movement", "add hold_s, or swings")
+    if swings == 1 and "score" in table.data:
+        raise table.error("score", "one swing has no score", "take it away, or ask for more swings")
     width = table.number("width_deg", minimum=1.0, maximum=90.0)
     widest = table.number("widest_deg", 360.0, minimum=width)
     first = table.string("first", "either", among=("either", *DIRECTIONS[axis]))
@@ -164,10 +171,21 @@ def _row(axis: str, table: Table) -> PatternRow:
         slowing=table.number("slowing", 1.0, minimum=0.05, maximum=1.0),
         hold=hold,
         direction=DIRECTIONS[axis].get(first, 0),
+        score=_score(table) if "score" in table.data else None,
         prompted=WHEN[table.string("when", "always", among=tuple(WHEN))],
     )
     table.finish()
     return row
+
+
+def _score(table: Table) -> SwingScore:
+    below = table.table("score")
+    bias, width, duration, rest, dominance = (
+        float(below.number(name, minimum=-HEAVIEST, maximum=HEAVIEST))
+        for name in ("bias", *FEATURES)
+    )
+    below.finish()
+    return SwingScore(bias, (width, duration, rest, dominance))
 
 
 def _dominance(axis: str, table: Table) -> dict[str, float]:

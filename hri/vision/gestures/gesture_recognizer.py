@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import pairwise
 
@@ -20,6 +20,7 @@ from hri.core.signals import HeadGesture, HeadPose
 from hri.vision.gestures.angle_noise import Angles, Noise, Steadying
 from hri.vision.gestures.gesture_patterns import AXES, Pattern, PatternRow
 from hri.vision.gestures.oscillation import Swing, ZigZag, resting, slowing
+from hri.vision.gestures.swing_score import Features, features
 
 TURN: Angles = (math.radians(2.5), math.radians(4.0), math.radians(3.0))
 """How far pitch, yaw and roll must come back from an extreme to make it a turning point."""
@@ -31,6 +32,8 @@ QUIET = 0.7
 """Seconds without a turn that end a gesture, so that one long nod is reported once."""
 HISTORY = 3.0
 """Seconds of poses that are kept."""
+CROSSING = (AXES.index("yaw"), AXES.index("pitch"), AXES.index("yaw"))
+"""The angle that the score of a row compares with, by axis."""
 LARGEST = 100.0
 """Radians; larger values are not angles."""
 STILL = 0.2
@@ -136,6 +139,10 @@ class Movement:
         """Seconds; when any angle turned."""
         return max(zigzag.last_turn for zigzag in self._zigzags)
 
+    def swings(self, axis: int) -> list[Swing]:
+        """The latest swings of an angle, the one under way last."""
+        return self._zigzags[axis].swings()
+
     def gesture(
         self,
         patterns: Iterable[Pattern],
@@ -155,7 +162,7 @@ class Movement:
 
     def makes(self, row: PatternRow, axis: int, since: float = -math.inf) -> bool:
         """Whether the latest swings of an angle, all begun after some seconds, satisfy a row."""
-        swings = self._zigzags[axis].swings()[-row.swings :]
+        swings = self.swings(axis)[-row.swings :]
         if not swings or swings[0].start < since or not row.fits(swings, self._least[axis]):
             return False
         *before, running = swings
@@ -169,11 +176,19 @@ class Movement:
             and all(swing.end - swing.start <= row.duration for swing in before)
             and self._dominates(row, axis, swings)
             and (row.slowing >= 1 or slowing(*self._since(running.start, axis)) <= row.slowing)
+            and (row.score is None or row.score(self.features(swings, axis)) > 0)
             and 2 * sum(self._leaps(swing, axis) for swing in swings) <= len(swings)
         )
 
+    def features(self, swings: Sequence[Swing], axis: int) -> Features:
+        """The features of the latest swings of an angle, two at least."""
+        ends = [*(swing.end for swing in swings[:-1]), self._times[-1]]
+        seconds = [end - swing.start for swing, end in zip(swings, ends, strict=True)]
+        covers = [(cover[axis], cover[CROSSING[axis]]) for cover in self._covers(swings)]
+        return features([swing.width for swing in swings], seconds, covers)
+
     def _found(self, pattern: Pattern, row: PatternRow) -> HeadGesture:
-        swings = self._zigzags[pattern.axis].swings()
+        swings = self.swings(pattern.axis)
         now, least = self._times[-1], max(row.width, self._least[pattern.axis])
         onset = swings[-row.swings].start
         for swing in reversed(swings[: -row.swings]):
@@ -188,13 +203,17 @@ class Movement:
 
         During each by itself: who nods while the head turns to the side nods all the same.
         """
+        return all(
+            cover[axis] >= ratio * cover[AXES.index(other)]
+            for cover in self._covers(swings)
+            for other, ratio in row.dominance.items()
+        )
+
+    def _covers(self, swings: Sequence[Swing]) -> Iterator[list[float]]:
+        """How far each angle moves during each of the latest swings, radians."""
         for number, swing in enumerate(swings, start=1):
             end = swing.end if number < len(swings) else math.inf
-            reach = [_range(self._between(swing.start, end, index)) for index in range(len(AXES))]
-            for other, ratio in row.dominance.items():
-                if reach[axis] < ratio * reach[AXES.index(other)]:
-                    return False
-        return True
+            yield [_range(self._between(swing.start, end, axis)) for axis in range(len(AXES))]
 
     def _leaps(self, swing: Swing, axis: int) -> bool:
         """Whether most of a swing lies between two poses in a row."""

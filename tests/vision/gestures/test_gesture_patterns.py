@@ -10,6 +10,7 @@ from hri.vision.gestures.gesture_patterns import ANSWERS, chosen, load_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 
 ROW = "swings = 3\nwidth_deg = 4\nswing_s = 0.5\n"
+SCORED = ROW + "score = { bias = 1, width = 0, duration = -4, rest = 0, dominance = 0 }\n"
 
 
 def written(folder: Path, rows: str = ROW, head: str = 'axis = "roll"\n') -> Path:
@@ -56,6 +57,9 @@ def test_a_gesture_may_be_added_as_data(tmp_path: Path) -> None:
         (ROW + 'first = "up"\n', 'axis = "yaw"\n', 7, "left"),
         (ROW + "dominance = { roll = 2 }\n", 'axis = "roll"\n', 7, "cannot be compared"),
         (ROW + 'when = "askd"\n', 'axis = "roll"\n', 7, "asked"),
+        (ROW + "score = { bias = 1 }\n", 'axis = "yaw"\n', 7, "width"),
+        (SCORED.replace("rest", "rset"), 'axis = "yaw"\n', 7, "rest"),
+        (SCORED.replace("3", "1") + "hold_s = 1\n", 'axis = "yaw"\n', 7, "more swings"),
         (ROW + "rest = 1.5\n", 'axis = "roll"\n', 7, "from 0 to 1"),
     ],
 )
