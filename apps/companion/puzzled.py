@@ -5,12 +5,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from typing import Any
 
 from hri.conversation import (
     ASKED,
+    CONFIRMED,
     TELLING,
     Answer,
     Gist,
@@ -88,6 +89,8 @@ FELT: Mapping[Kind, str] = {
 """Stimuli."""
 OWN_WORDS = TELLING | GESTURES.keys()
 """Of these a request for other words would be no answer."""
+MOST_NAMED = 4
+"""Answers to a question that are all named; of more, two are."""
 MOST_OF_SLIP = 5
 """Words of a sentence that fails at one."""
 TALES = ("because", "commands", "said", "why", "why_stopped")
@@ -232,31 +235,40 @@ def _without_slip(grammar: Grammar, text: str, strange: Sequence[str]) -> str:
 
 
 def _answers(companion: Companion, grammar: Grammar) -> list[str]:
-    """Two things that would answer the question that is open, or the only one.
+    """What would answer the question that is open: all where they are few, else two of them.
 
     Its own small questions need no answer: who talks of something else is not asked for a yes.
     """
     if not companion.context.board.slot(QUESTION).value or companion.is_wondering:
         return []
-    if grammar.marked("answer"):
+    asked = companion.context.board.slot(ASKED).value
+    if grammar.marked("answer") or asked == CONFIRMED:
         return ["yes", "no"]
     others = grammar.marked("interrupts")
     # What may be said around an answer belongs to other grammars.
     own = [rule for rule in grammar.public_rules if rule not in others and "." not in rule]
-    asked = companion.context.board.slot(ASKED).value
-    found = dict.fromkeys(
-        text
-        for rule in own
-        for text in (*grammar.rules[rule].examples, *different(grammar, rule))
-        if not asked or _gives(grammar, text, asked)
-    )
-    return [as_said(text) for text in islice(found, 2)]
+    shown = [text for rule in own for text in grammar.rules[rule].examples]
+    shown += [text for rule in own for text in _answers_for(grammar, rule, asked)]
+    texts = [as_said(text) for text in _of_different_meaning(grammar, shown, asked)]
+    return texts if len(texts) <= MOST_NAMED else texts[:2]
 
 
-def _gives(grammar: Grammar, text: str, tag: str) -> bool:
-    """Whether a sentence answers the question for a tag."""
-    found = parse(grammar, text)
-    return found is not None and tag in found.tags
+def _answers_for(grammar: Grammar, rule: str, tag: str | None) -> Iterator[str]:
+    """Sentences of a rule, or of what gives a tag its value there."""
+    values = values_of(grammar, rule, tag) if tag else grammar
+    for key in values.public_rules if tag else [rule]:
+        yield from islice(different(values, key), MOST_NAMED + 1)
+
+
+def _of_different_meaning(grammar: Grammar, texts: Iterable[str], tag: str | None) -> list[str]:
+    """The first text of each value of a tag; any tag where none is given."""
+    found: dict[object, str] = {}
+    for text in texts:
+        parsed = parse(grammar, text)
+        if parsed is not None and (not tag or tag in parsed.tags):
+            value = parsed.tags[tag] if tag else tuple(sorted(parsed.tags.items()))
+            found.setdefault(value if value != () else text, text)
+    return list(found.values())
 
 
 def _is_for_it(companion: Companion, heard: Mapping[str, Any]) -> bool:

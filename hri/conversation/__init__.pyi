@@ -30,7 +30,7 @@ from .examples import (
     sayings as sayings,
 )
 from .facts import Fact as Fact, fact_of as fact_of
-from .filling import ASKED as ASKED, fill as fill
+from .filling import ASKED as ASKED, CONFIRMED as CONFIRMED, fill as fill
 from .first_names import (
     as_name as as_name,
     introduced as introduced,

@@ -6,15 +6,17 @@ an hour, or forth, the timer goes with it. Alarms and reminders are for a time o
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from datetime import datetime, time, timedelta
 from enum import StrEnum
+from typing import Any
 
 from hri.conversation.day import clock_words
 from hri.core.clock import Uptime
 from hri.core.errors import HriError
-from hri.speech.grammar.dates import resolve
+from hri.speech.grammar.dates import WEEKDAYS, resolve
 
 MOST_ALARMS = 100
 LONGEST_ABOUT = 200
@@ -30,6 +32,11 @@ HALVES = {"am": 0, "pm": 12}
 """The hour at which each half of a day begins."""
 EARLIEST = 7
 """The hour of another day from which on the one before noon is meant: seven, but not six."""
+_WHEN = re.compile(
+    rf"(?P<day>[+-][-\d]+|\d{{4}}-\d\d-\d\d|(?:(?:next|last) )?(?:{'|'.join(WEEKDAYS)}))?"
+    r"(?:(?:^| )(?P<clock>\d\d:\d\d)(?P<half>\?|am|pm|))?"
+)
+"""What `meant` takes, but a length of time."""
 
 
 class AlarmKind(StrEnum):
@@ -180,6 +187,28 @@ def _on_the_wall(text: str, at: datetime, earliest: int) -> datetime:
     clocks = sorted((first, second)) if is_either else [first]
     found = (datetime.combine(one, clock) for one in days for clock in clocks)
     return next((when for when in found if when > at), datetime.combine(days[0], first))
+
+
+def completed(value: Any, before: Any) -> Any:
+    """A tag of `grammars/when.jsgf` that corrects one before it, with what it leaves open as it was
+    there; anything else as it is.
+
+    "Nine" behind "seven in the morning" is 09:00, "eight" behind "tomorrow evening" +1 20:00, and
+    "Friday" behind "tomorrow at seven" is at seven.
+    """
+    now, then = _WHEN.fullmatch(str(value)), _WHEN.fullmatch(str(before))
+    if now is None or then is None or not (value and before):
+        return value
+    clock, half = (now if now["clock"] else then).group("clock", "half")
+    if now["clock"] and half == "?" and then["clock"]:
+        half = _half(then["clock"], then["half"]) if int(clock[:2]) <= 12 else half
+    day = now["day"] or then["day"]
+    return " ".join(filter(None, (day, f"{clock}{half}" if clock else "")))
+
+
+def _half(clock: str, half: str) -> str:
+    """The half of the day of a time, "?" for either."""
+    return half or ("am" if int(clock[:2]) < 12 else "pm")
 
 
 # --- in words ---

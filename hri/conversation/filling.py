@@ -6,17 +6,28 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
-from hri.conversation.form_grammar import LESS, MORE, SLOT, YES, form_grammar, wanted
+from hri.conversation.form_grammar import (
+    AGREED,
+    LESS,
+    MORE,
+    REFUSED,
+    SLOT,
+    YES,
+    form_grammar,
+)
 from hri.conversation.forms import NOTHING, Form, Slot
+from hri.conversation.self_repair import Change, change_of, is_among_others, is_clear, own_words
 from hri.core.signals import Utterance
 from hri.robot.verbs import Ending, ask_in_force, say
 from hri.speech.behaviors import Listener, Voice
-from hri.speech.grammar import Grammar
+from hri.speech.grammar import Grammar, parse
 from hri.speech.tasks import answers_of
 from hri.task.context import TaskContext
 
 ASKED = "form.asked"
 """Slot of the board with the tag that a form asks for."""
+CONFIRMED = "form.confirmed"
+"""What stands there while it asks whether all is right."""
 BREATH = 0.3
 """Seconds in which it begins to answer what else was said, and between looks at its voice."""
 
@@ -29,8 +40,8 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
     `refused`; the events of its questions show why else it was given up. Raises HriError for a
     grammar that cannot be used.
     """
-    values = form.taken(known)
-    async with answers_of(context, str(form.grammar), partial(form_grammar, form)):
+    values, answers = form.taken(known), _Answers(form)
+    async with answers_of(context, str(form.grammar), answers.prepared):
         for _ in range(form.most_turns):
             slot = form.next_slot(values)
             if slot is None and not form.confirm:
@@ -38,17 +49,18 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
             answer = await _asked(context, form, slot, values)
             if isinstance(answer, Ending):
                 return None
-            if answer is None:
+            told = answers.told(_grammar(context), answer, values)
+            if told is None:
                 continue
-            if isinstance(answer, Utterance) and (tags := _told(form, answer, values)):
-                values = _with(values, tags)
+            if told:
+                values = _with(values, told)
             elif slot is not None:
                 if not _is_yes(answer) and slot.none is None:
                     break
                 values |= {} if _is_yes(answer) else {slot.name: NOTHING}
             elif _is_yes(answer):
                 return values
-            elif (changed := await _changed(context, form, values)) is None:
+            elif (changed := await _changed(context, form, answers, values)) is None:
                 break
             else:
                 values = _with(values, changed)
@@ -59,42 +71,79 @@ async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> di
 
 async def _asked(
     context: TaskContext, form: Form, slot: Slot | None, values: Mapping[str, Any]
-) -> bool | Utterance | Ending | None:
+) -> bool | Utterance | Ending:
     """The answer to the question for a slot, or whether all is right."""
-    if slot is None:
-        return await _answer(context, form, form.filled_in(form.confirm, values), is_yes_or_no=True)
     asked = context.board.slot(ASKED)
-    asked.set(slot.name, context.clock.now())
+    asked.set(CONFIRMED if slot is None else slot.name, context.clock.now())
     try:
-        return await _answer(context, form, slot.ask)
+        if slot is not None:
+            return await _answer(context, form, slot.ask)
+        return await _answer(context, form, form.filled_in(form.confirm, values), is_yes_or_no=True)
     finally:
         asked.clear()
 
 
 async def _changed(
-    context: TaskContext, form: Form, values: Mapping[str, Any]
+    context: TaskContext, form: Form, answers: _Answers, values: Mapping[str, Any]
 ) -> dict[str, Any] | None:
     """The slots that are to be otherwise, after a no; None where nothing is."""
     answer = await _answer(context, form, form.change) if form.change else False
-    return _told(form, answer, values) or None if isinstance(answer, Utterance) else None
+    if isinstance(answer, Ending):
+        return None
+    told = answers.told(_grammar(context), answer, values)
+    return told or None if told is not None else {}
 
 
-def _told(form: Form, answer: Utterance, values: Mapping[str, Any]) -> dict[str, Any]:
-    """The slots that an answer fills; None for one that is to be asked for again."""
-    if answer.rule == SLOT:
-        return {answer.tags["slot"]: None}
-    told = form.taken(answer.tags)
-    if answer.rule == MORE:
-        return {
-            name: tuple(dict.fromkeys((*_listed(values, name), *items)))
-            for name, items in told.items()
-        }
-    if answer.rule == LESS:
-        may_be_other = answer.text.startswith("no ")
-        return {
-            name: _left(_listed(values, name), items, may_be_other) for name, items in told.items()
-        }
-    return told
+class _Answers:
+    """What answers do to the slots of a form."""
+
+    def __init__(self, form: Form) -> None:
+        self._form = form
+        self._own: Grammar | None = None
+        """The answers alone."""
+
+    def prepared(self, grammar: Grammar) -> Grammar:
+        """What is heard while the form is filled; in the worker that reads its grammar."""
+        heard = form_grammar(self._form, grammar)
+        self._own = own_words(heard)
+        parse(self._own, "")  # Builds its automaton.
+        return heard
+
+    def told(
+        self, grammar: Grammar, answer: bool | Utterance, values: Mapping[str, Any]
+    ) -> dict[str, Any] | None:
+        """The slots that an answer fills, with None for one that is to be asked for again.
+
+        None for an answer that is not clear. `grammar` is the one in force.
+        """
+        if not isinstance(answer, Utterance):
+            return {}
+        if self._own is not None and is_among_others(grammar, answer):
+            change = change_of(self._own, self._form, answer.text, values)
+            if change is None or (told := change.told(values)):
+                return None if change is None else told
+        return self._of_rule(grammar, answer, values)
+
+    def _of_rule(
+        self, grammar: Grammar, answer: Utterance, values: Mapping[str, Any]
+    ) -> dict[str, Any] | None:
+        told = self._form.taken(answer.tags)
+        if answer.rule == SLOT:
+            return {answer.tags["slot"]: None}
+        if answer.rule == MORE:
+            return Change(added=told).told(values)
+        if answer.rule == LESS:
+            may_be_other = answer.text.startswith("no ")
+            return {
+                name: _left(_listed(values, name), items, may_be_other)
+                for name, items in told.items()
+            }
+        if answer.rule == AGREED:
+            return {} if is_clear(grammar, answer) else None
+        if answer.rule == REFUSED:
+            slot = self._form.next_slot(values)
+            return None if slot is not None and slot.none is None else {}
+        return told
 
 
 def _listed(values: Mapping[str, Any], name: str) -> tuple[Any, ...]:
@@ -115,18 +164,15 @@ def _with(values: Mapping[str, Any], told: Mapping[str, Any]) -> dict[str, Any]:
 
 async def _answer(
     context: TaskContext, form: Form, question: str, is_yes_or_no: bool = False
-) -> bool | Utterance | Ending | None:
-    """The answer to a question of a form; who says something else is asked again.
-
-    None for one that is not clear.
-    """
+) -> bool | Utterance | Ending:
+    """The answer to a question of a form; who says something else is asked again."""
     questions = {slot.name: slot.ask for slot in form.slots}
     ask = partial(ask_in_force, context, question, questions=questions, is_yes_or_no=is_yes_or_no)
     answer = await ask()
     if answer is Ending.OTHER and not _is_interrupted(context):
         await _after_what_is_said(context)
         answer = await ask()
-    return wanted(_grammar(context), answer) if isinstance(answer, Utterance) else answer
+    return answer
 
 
 async def _after_what_is_said(context: TaskContext) -> None:
@@ -148,4 +194,5 @@ def _grammar(context: TaskContext) -> Grammar:
 
 
 def _is_yes(answer: bool | Utterance) -> bool:
-    return answer is True or (isinstance(answer, Utterance) and answer.rule == YES)
+    is_said = isinstance(answer, Utterance) and answer.rule in (YES, AGREED)
+    return answer is True or is_said

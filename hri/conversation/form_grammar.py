@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import islice
 
 from hri.conversation.examples import different
 from hri.conversation.forms import NOTHING, Form
 from hri.core import paths
-from hri.core.signals import Utterance
 from hri.robot.verbs import in_words
 from hri.speech.answering import AFTER, BEFORE, CANCEL, CORRECTING, answering
-from hri.speech.grammar import Grammar, Rule, load_grammar, parse
+from hri.speech.grammar import Grammar, Parse, Rule, load_grammar, parse
 from hri.speech.grammar.doc_comments import DocTag
 from hri.speech.grammar.expressions import (
     Alternative,
@@ -37,6 +36,10 @@ EMPTY = "form.empty"
 """The rule of what leaves a slot empty: "no toppings"."""
 ADDED = ("form.", "answers.", "asking.")
 """Beginnings of the names of rules that are not the form's own."""
+ALL = "form.all"
+"""The rule of what gives a slot of several values all of them: "everything"."""
+AGREED, REFUSED = "form.agreed", "form.refused"
+"""The rules of a yes and a no with more words behind it, which are typed: "no we already ate"."""
 MORE, LESS = "form.more", "form.less"
 """The rules of what adds to a slot of several values, and takes away: "add bacon", "no olives"."""
 SEVERAL = "form.several"
@@ -51,22 +54,18 @@ LINKING = ("to", "is", "it's", "should be", "has to be", "as")
 """What may be said between the name of a slot and its value."""
 WITHOUT = ("no", "without", "without any", "leave out the", "skip the", "hold the", "i don't want")
 """What may be said before the name of a slot that is left empty."""
-ADDING = ("add", "and also", "also", "plus", "and add", "put on", "with extra")
+ADDING = ("add", "and also", "also", "plus", "and add", "and", "put on", "with extra")
 """What may be said before another value of a slot that may have several."""
 TAKING_AWAY = ("no", "not", "without", "no more", "take off", "leave out", "remove", "hold", "skip")
 """What may be said before a value that is taken away; "no olives" may also be "no, olives"."""
+EVERYTHING = ("everything", "all of them", "all of it", "all of those", "one of each", "the lot")
+"""What may be said for all values of a slot that may have several."""
+TOO = ("too", "as well", "also")
+"""What may be said behind a value that is added."""
 MOST_LOOKED_AT = 20
-"""Sentences of a rule that show whether its slot has several values."""
-MOST_BETWEEN, MOST_BEHIND = 4, 6
-"""Other words between two answers, and behind the last."""
-NEGATING = frozenset(("no", "not", "don't", "without", "never", "except", "isn't"))
-"""One of these among the other words leaves open what is wanted."""
-UNWANTED = (["instead", "of"], ["rather", "than"], ["not"])
-"""What may be said before an answer that is not one: "mushrooms instead of bacon"."""
-LEADING = ("with", "on", "at", "the", "a")
-"""Words that may stand before it."""
-LONGEST_UNWANTED = 4
-"""Words of an answer that is not one."""
+"""Sentences of a rule that show whether its slot has several values, and which."""
+MOST_BEFORE, MOST_BETWEEN, MOST_BEHIND = 8, 8, 8
+"""Other words before an answer, between two of them, and behind the last."""
 
 
 def form_grammar(form: Form, grammar: Grammar) -> Grammar:
@@ -85,8 +84,10 @@ def form_grammar(form: Form, grammar: Grammar) -> Grammar:
     own = {key: asked.rules[key] for key in grammar.public_rules}
     words = _Words(next(iter(own.values())))
     made = {EMPTY: words.empty(form), SLOT: words.slot()}
-    made |= {NAMES: words.names(form), NAMED: words.named(), SEVERAL: words.several((*own, EMPTY))}
     listed = [key for key in own if words.is_listed(form, grammar, key)]
+    made |= {NAMES: words.names(form), NAMED: words.named(), ALL: words.all(form, grammar, listed)}
+    made |= {SEVERAL: words.several((*own, EMPTY, ALL))}
+    made |= {AGREED: words.answer(YES), REFUSED: words.answer(NO)}
     before = {MORE: words.items(MORE, ADDING, listed), LESS: words.items(LESS, TAKING_AWAY, listed)}
     # "Never mind" is also a no, to a question of yes or no alone, and "nothing" empties no slot
     # by its name.
@@ -94,40 +95,10 @@ def form_grammar(form: Form, grammar: Grammar) -> Grammar:
     return replace(asked, rules={**before, **own, **first, **made, **asked.rules, **made})
 
 
-def wanted(grammar: Grammar, answer: Utterance) -> Utterance | None:
-    """The answer without what is named and not wanted; None where that is not clear.
-
-    "Wednesday not monday" is Wednesday, and "small but don't forget the olives" is not clear.
-    """
-    if answer.rule != SEVERAL:
-        return answer
-    words = list(_without_unwanted(grammar, answer.text.split()))
-    found = parse(grammar, " ".join(words))
-    if found is None or not NEGATING.isdisjoint(words[number] for number in found.free):
-        return None
-    return replace(answer, rule=found.rule, tags=found.tags)
-
-
-def _without_unwanted(grammar: Grammar, words: Sequence[str]) -> Iterator[str]:
-    own = {rule for rule in grammar.public_rules if not rule.startswith(ADDED)}
-    rest = list(words)
-    while rest:
-        sign = next((sign for sign in UNWANTED if rest[: len(sign)] == sign), [])
-        length = _answer_length(grammar, own, rest[len(sign) :]) if sign else 0
-        if length:
-            rest = rest[len(sign) + length :]
-        else:
-            yield rest.pop(0)
-
-
-def _answer_length(grammar: Grammar, rules: Collection[str], words: Sequence[str]) -> int:
-    """How many words at the beginning are an answer."""
-    begin = 1 if words[:1] and words[0] in LEADING else 0
-    for end in range(min(len(words), begin + LONGEST_UNWANTED), begin, -1):
-        found = parse(grammar, " ".join(words[begin:end]), rules)
-        if found is not None and not found.free:
-            return end
-    return 0
+def _shown(grammar: Grammar, key: str) -> list[Parse]:
+    """Sentences of a rule, as they are understood; MOST_LOOKED_AT where it has more."""
+    texts = islice(different(grammar, key), MOST_LOOKED_AT)
+    return [found for text in texts if (found := parse(grammar, text, {key}))]
 
 
 class _Words:
@@ -168,27 +139,51 @@ class _Words:
 
     def is_listed(self, form: Form, grammar: Grammar, key: str) -> bool:
         """Whether a rule gives values of one slot alone, which may have several."""
-        texts = islice(different(grammar, key), MOST_LOOKED_AT)
-        tags = [found.tags for text in texts if (found := parse(grammar, text, {key}))]
-        names = {name for told in tags for name in form.taken(told)}
+        tags = [form.taken(found.tags) for found in _shown(grammar, key)]
+        names = {name for told in tags for name in told}
         return len(names) == 1 and all(
             isinstance(told.get(name), tuple) for told in tags for name in names
         )
+
+    def all(self, form: Form, grammar: Grammar, listed: Iterable[str]) -> Rule:
+        """What gives a slot all values, where they are few."""
+        choices = []
+        for shown in (_shown(grammar, key) for key in listed):
+            entries = [
+                TagEntry(name, "+=", value)
+                for found in shown
+                for name, values in form.taken(found.tags).items()
+                for value in values
+            ]
+            if len(shown) < MOST_LOOKED_AT:
+                choices.append(Tagged(self._any_of(EVERYTHING), tuple(entries), self._span))
+        expression = framed(self._either(choices), self._to(BEFORE), self._to(AFTER))
+        return self._rule(ALL, expression, is_public=bool(choices))
 
     def items(self, key: str, before: Iterable[str], listed: Iterable[str]) -> Rule:
         """Things of a slot of several values, and what is to become of them."""
         things = [self._to(one) for one in listed]
         row = (self._any_of(before), self._maybe(self._words("the")), self._either(things))
-        return self._rule(key, Row(row, self._span), is_public=bool(things))
+        last = (self._maybe(self._any_of(TOO)),) if key == MORE else ()
+        return self._rule(key, Row((*row, *last), self._span), is_public=bool(things))
+
+    def answer(self, key: str) -> Rule:
+        """A yes or a no, and what is typed behind it."""
+        row = (self._to(key), Anything(self._span, 1, MOST_BEHIND))
+        return self._typed(AGREED if key == YES else REFUSED, Row(row, self._span))
 
     def several(self, answers: Iterable[str]) -> Rule:
-        """Answers with other words between and behind them."""
+        """Answers with other words before, between and behind them."""
         item = self._either(map(self._to, answers))
-        between, behind = (
-            self._maybe(Anything(self._span, 1, most)) for most in (MOST_BETWEEN, MOST_BEHIND)
+        before, between, behind = (
+            self._maybe(Anything(self._span, 1, most))
+            for most in (MOST_BEFORE, MOST_BETWEEN, MOST_BEHIND)
         )
         more = Repeat(Row((between, item), self._span), 0, self._span)
-        rule = self._rule(SEVERAL, Row((item, more, behind), self._span))
+        return self._typed(SEVERAL, Row((before, item, more, behind), self._span))
+
+    def _typed(self, key: str, expression: Expression) -> Rule:
+        rule = self._rule(key, expression)
         return replace(rule, doc_tags=(DocTag("typed", "", self._span),))
 
     def _rule(self, key: str, expression: Expression, is_public: bool = True) -> Rule:

@@ -205,7 +205,8 @@ def decide(
     if not is_meant(puzzle, row):
         return None
     if puzzle.answers:
-        return Answer(Kind.ANSWERS, {"one": puzzle.answers[0], "other": puzzle.answers[-1]})
+        *first, last = puzzle.answers
+        return Answer(Kind.ANSWERS, {"one": '", "'.join(first) or last, "other": last})
     if puzzle.meant:
         return Answer(Kind.NEAR, {"nearest": puzzle.meant})
     if puzzle.act is not DialogAct.DIRECTIVE and (of_act := _of_act(puzzle)) is not None:

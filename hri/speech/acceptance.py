@@ -308,7 +308,7 @@ def _reason(
 
 
 def _is_among_others(grammar: Grammar, found: Parse) -> bool:
-    return bool(found.around) and found.rule in grammar.marked("anywhere")
+    return bool(found.around) and found.rule in grammar.marked("anywhere") | grammar.marked("typed")
 
 
 def _is_named(grammar: Grammar, found: Parse) -> bool:

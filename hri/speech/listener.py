@@ -18,7 +18,7 @@ from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
 from hri.speech.endpoint import PRE_ROLL
-from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar import Grammar, load_grammar, parse
 from hri.speech.grammar.follow_ups import FOLLOWED_FOR, Followed, can_be_followed
 from hri.speech.grammar.merging import with_interrupts_of
 from hri.speech.grammar_stack import GrammarStack, Layer, Prepare, as_written
@@ -448,21 +448,25 @@ class Listener(Behavior):
         return tell
 
     def _reading(self, segment: Segment, layer: Layer, turn: Turn) -> Reading:
-        """What a piece says; a typed line that the grammar of a question does not allow may be a
-        sentence of those below.
+        """What a piece says; a typed line that the grammar of a question does not allow, or only
+        among other words, may be a sentence of those below.
         """
         assert layer.heard is not None
         if not segment.text:
             return self._turns.end(segment, layer.heard, self.strictness, turn)
-        below = (one.heard for one in reversed(layer.below) if one.heard is not None)
-        read = (
-            understand(LineDecoder(grammar), grammar, segment, self.strictness, turn)
-            for grammar in (layer.heard, *below)
-        )
-        first = next(read)
-        if isinstance(first, Utterance):
+
+        def read(grammar: Grammar) -> Heard:
+            return understand(LineDecoder(grammar), grammar, segment, self.strictness, turn)
+
+        first = read(layer.heard)
+        if isinstance(first, Utterance) and not first.is_among_others:
             return Reading((first,))
-        return Reading((next((one for one in read if isinstance(one, Utterance)), first),))
+        is_answer = isinstance(first, Utterance)
+        for below in (one.heard for one in reversed(layer.below) if one.heard is not None):
+            heard = read(below)
+            if isinstance(heard, Utterance) and (not is_answer or _is_whole(below, heard)):
+                return Reading((heard,))
+        return Reading((first,))
 
     def _advance(self, segment: Segment, piece: _Piece, grammar: Grammar, begun: float) -> None:
         """Let the engine work on an open piece when there is enough new of it."""
@@ -605,6 +609,14 @@ def _spoken(slots: Iterable[HeardSlot]) -> dict[str, dict[str, object]]:
 
 def _rule_of(heard: Heard) -> str:
     return heard.rule if isinstance(heard, Utterance) else ""
+
+
+def _is_whole(grammar: Grammar, heard: Utterance) -> bool:
+    """Whether a typed line is a sentence word for word; a free slot takes the words of anything."""
+    if heard.confidence < 1.0 or heard.is_among_others:
+        return False
+    found = parse(grammar, heard.text, {heard.rule})
+    return found is not None and not found.free
 
 
 def _own_words(heard: Utterance) -> Rejection:
