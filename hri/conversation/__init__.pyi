@@ -5,6 +5,7 @@ from .alarms import (
     Alarm as Alarm,
     AlarmKind as AlarmKind,
     TooManyAlarms as TooManyAlarms,
+    completed as completed,
     length_words as length_words,
 )
 from .authored_event import read_event as read_event

@@ -108,6 +108,10 @@ class AlarmKeeper:
         """When it is due, in words."""
         return when_words(wall_of(self._clock, alarm.due), self._clock.wall())
 
+    def when_tag(self, alarm: Alarm) -> str:
+        """When it is due, as `hri.conversation.alarms.meant` reads it."""
+        return f"{wall_of(self._clock, alarm.due):%Y-%m-%d %H:%M}"
+
     async def begin(self, alarm: Alarm) -> bool:
         """Note that it is about to be said; whether that is for the first time.
 

@@ -10,6 +10,7 @@ from hri.conversation.form_grammar import (
     AGREED,
     LESS,
     MORE,
+    NO,
     REFUSED,
     SLOT,
     YES,
@@ -128,8 +129,8 @@ class _Answers:
         self, grammar: Grammar, answer: Utterance, values: Mapping[str, Any]
     ) -> dict[str, Any] | None:
         told = self._form.taken(answer.tags)
-        if answer.rule == SLOT:
-            return {answer.tags["slot"]: None}
+        if answer.rule == SLOT or (answer.rule in (YES, NO) and "slot" in answer.tags):
+            return {answer.tags["slot"]: None}  # "The size, no."
         if answer.rule == MORE:
             return Change(added=told).told(values)
         if answer.rule == LESS:

@@ -11,6 +11,8 @@ from hri.testing import live_for
 from tests.conversation.test_forms import FORM, GRAMMAR
 from tests.devices import TYPED
 
+BOTH = ("olives", "bacon")
+
 
 @pytest.fixture
 def filled(tmp_path):
@@ -97,3 +99,29 @@ def test_no_may_mean_another_answer_and_without_may_not(filled):
     values, asked = filled(["without olives", "no olives", "yes"], {"size": "small"})
     assert values == {"size": "small", "toppings": ("olives",)}
     assert asked[:2] == ["With which toppings?"] * 2
+
+
+@pytest.mark.parametrize("answer", ["no the size", "no the size not now"])
+def test_a_slot_that_is_named_with_a_no_is_asked_for_again(filled, answer):
+    values, asked = filled([answer, "large", "yes"], {"size": "small", "toppings": ("olives",)})
+    assert values == {"size": "large", "toppings": ("olives",)}
+    assert asked[1] == "Which size?"
+
+
+@pytest.mark.parametrize(
+    ("answers", "values"),
+    [
+        (["yep go"], {"size": "small", "toppings": ("olives",)}),
+        (["no make it large and add bacon", "yes"], {"size": "large", "toppings": BOTH}),
+        (["yes but wait", "yes"], {"size": "small", "toppings": ("olives",)}),
+        (["no we already ate", "nothing"], None),
+    ],
+)
+def test_a_yes_and_a_no_may_have_more_behind_them(filled, answers, values):
+    assert filled(answers, {"size": "small", "toppings": ("olives",)})[0] == values
+
+
+def test_a_no_with_a_reason_answers_no_other_question(filled):
+    values, asked = filled(["no you choose that", "large", "olives", "yes"], {})
+    assert values == {"size": "large", "toppings": ("olives",)}
+    assert asked[:2] == ["Which size?", "Which size?"]

@@ -127,8 +127,11 @@ def nearest(
     for trace in _cheapest_first(words, matcher.begin(), most):
         steps = _unwound(trace)
         edits = tuple(step.edit for step in steps if step.edit is not None)
-        found = parse(grammar, " ".join(step.word for step in steps if step.word), rules)
-        if found is not None and not _is_moved(edits):
+        made = [step for step in steps if step.word]
+        found = parse(grammar, " ".join(step.word for step in made), rules)
+        put_in = {number for number, step in enumerate(made) if step.edit is not None}
+        # Only what was said fills a free slot.
+        if found is not None and not _is_moved(edits) and put_in.isdisjoint(found.free):
             return Tolerant(found, edits)
     return None
 

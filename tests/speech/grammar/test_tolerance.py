@@ -80,6 +80,11 @@ def test_a_little_word_that_stands_elsewhere_is_not_forgiven(write):
     assert nearest(grammar, "is that right") is None
 
 
+def test_a_free_slot_is_filled_by_what_was_said_alone(write):
+    grammar = load_grammar(write("public <remind> = remind me to <deed.spoken 1-6>;"))
+    assert nearest(grammar, "remind me") is None
+
+
 def test_the_cheapest_edits_win(write):
     grammar = load_grammar(write("public <a> = show the face;\npublic <b> = show some face;"))
 

@@ -13,6 +13,7 @@ from hri.conversation import (
     AlarmKeeper,
     AlarmKind,
     TooManyAlarms,
+    completed,
     length_words,
     ring,
 )
@@ -75,6 +76,23 @@ async def set_alarm(context: TaskContext, when: str) -> str:
     except ValueError:
         return NOT_YET
     return f"Okay, I'll wake you {keeper.when_words(alarm)}." + await unsaved(keeper)
+
+
+async def change_alarm(context: TaskContext, when: str) -> str:
+    """Set the alarm that was set last to another time; "no at eight" leaves it in the morning."""
+    keeper = AlarmKeeper.of(context)
+    if not (found := keeper.alarms.of(AlarmKind.ALARM)):
+        return none_words("", is_alarm=True)
+    old = max(found, key=lambda one: one.id)
+    for text in (completed(when, keeper.when_tag(old)), when):
+        keeper.alarms.remove(old)
+        try:
+            alarm = keeper.promise(AlarmKind.ALARM, text, earliest=EARLIEST_ALARM)
+        except ValueError:
+            keeper.alarms.put(old)
+        else:
+            return f"Okay, I'll wake you {keeper.when_words(alarm)}." + await unsaved(keeper)
+    return NOT_YET
 
 
 async def unsaved(keeper: AlarmKeeper) -> str:
