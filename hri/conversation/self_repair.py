@@ -1,8 +1,8 @@
 """What a typed answer says in the end, where it takes back, adds and leaves out as it goes.
 
-As in W. Levelt, Monitoring and self-repair in speech (Cognition 14, 1983): behind an editing term
-("no wait", "i mean") what is said again replaces what was said, and all else stays. "Large with
-olives no wait small" is small with olives, and "seven minutes no make that eight" eight minutes.
+As in W. Levelt, Monitoring and self-repair in speech (Cognition 14, 1983): an answer behind an
+editing term ("no wait", "i mean") replaces the earlier one, and all else stays. "Large with olives
+no wait small" is small with olives, and "seven minutes no make that eight" eight minutes.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Use(Enum):
 
 SIGNS: Mapping[Use, tuple[str, ...]] = {
     Use.ADDED: ("add", "also", "and also", "plus", "put on", "extra", "even"),
-    Use.REPAIRED: ("or rather", "just", "only", "nothing but"),
+    Use.REPAIRED: ("or rather", "just", "only"),
     Use.UNWANTED: (
         *("not", "instead of", "rather than", "without", "except", "but no", "but not", "no more"),
         *("don't want", "don't like", "take off", "leave out", "hold", "skip", "remove"),
@@ -118,7 +118,7 @@ class Change:
 
 
 def own_words(grammar: Grammar) -> Grammar:
-    """The answers alone, without what may be said around them, of what `form_grammar` gives."""
+    """The answers alone, without the words around them, of a grammar of `form_grammar`."""
     rules = {
         key: replace(rule, expression=unframed(rule.expression).body, doc_tags=())
         if rule.is_public and not (key.startswith(ADDED) and key not in (EMPTY, ALL))
@@ -137,7 +137,7 @@ def is_among_others(grammar: Grammar, answer: Utterance) -> bool:
 
 
 def is_clear(grammar: Grammar, answer: Utterance) -> bool:
-    """Whether the words behind a yes leave it one: "yes but not today" is none."""
+    """Whether the words behind a yes leave it a yes, as those of "yes but not today" do not."""
     found = parse(grammar, answer.text, {answer.rule})
     words = answer.text.split()
     others = {words[number] for number in found.free} if found is not None else {*words}
@@ -222,7 +222,7 @@ def _repaired(
 ) -> dict[str, Any]:
     """The slots of an answer of which other words replace a part; empty where that gives none.
 
-    What is replaced is about as long as what replaces it, and was said last: of "an hour and ten
+    A part as long as the other words comes first, and the last of several: of "an hour and ten
     minutes no twenty" it is the ten.
     """
     before = _answer(own, answer)
