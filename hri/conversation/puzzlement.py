@@ -39,7 +39,10 @@ class Kind(StrEnum):
     """How it answers. Each is a key of [unasked] in replies.toml."""
 
     ANSWERS = "answers"
-    """A question is open, and it says what would answer it: {one} or {other}."""
+    """A question is open, and it says what would answer it: {one} or {other}.
+
+    Of several, {one} is all but the last, with `", "` between: the text has its quotes around it.
+    """
     CAUGHT = "caught"
     """It got the subject: {topic}."""
     NEAR = "near"

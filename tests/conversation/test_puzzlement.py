@@ -7,6 +7,7 @@ from hri.conversation.dialog_act import DialogAct
 from hri.conversation.puzzlement import (
     MOST_TO_STRANGERS,
     OFFER_AT,
+    Answer,
     Kind,
     Puzzle,
     Puzzlement,
@@ -168,3 +169,16 @@ def test_what_is_typed_is_always_answered_and_who_talks_to_others_never(puzzle, 
         assert answer is not None
         assert all(answer.facts.values())
         assert answer == decide(puzzle, row, commands)
+
+
+@pytest.mark.parametrize(
+    ("answers", "one", "other"),
+    [
+        (["small"], "small", "small"),
+        (["small", "large"], "small", "large"),
+        (["small", "medium", "large"], 'small", "medium', "large"),
+    ],
+)
+def test_all_that_would_answer_is_named(answers, one, other):
+    answer = decide(Puzzle("not in grammar", answers=answers, is_typed=True), 1, [])
+    assert answer == Answer(Kind.ANSWERS, {"one": one, "other": other})

@@ -517,3 +517,25 @@ def test_what_people_said_in_a_slot_is_known_to_the_ears():
     assert stage.ears.known == {"name": {"zorvin": ("Z", "AO", "R", "V", "IH", "N")}}
     stage.behavior.know("name", {})
     assert stage.ears.known == {"name": {}}
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        ("red wine and go forward", "drink"),
+        ("go forward with red wine", "drink"),
+        ("bring red wine here", "bring"),
+        ("note red wine here", "drink"),
+        ("red wine", "drink"),
+    ],
+)
+def test_a_typed_line_that_answers_only_among_other_words_may_be_a_whole_command(write, text, rule):
+    commands = "public <bring> = bring red wine here | red wine;\npublic <note> = note <it.spoken>;"
+    stage = Stage(Listener(grammar=str(write(commands, "commands"))))
+    stage.run(0.5)
+    stage.behavior.push(write("/** @anywhere */\npublic <drink> = red wine;", "drinks"))
+    stage.run(0.5)
+    told = []
+    stage.behavior.type_line(text, told.append)
+    stage.run(0.8)
+    assert told[0].rule == rule
