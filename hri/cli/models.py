@@ -48,6 +48,8 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _state(model: Model) -> str:
+    if CATALOG.is_incomplete(model):
+        return "incomplete: fetch it"
     if CATALOG.is_damaged(model):
         return "damaged: fetch it"
     if CATALOG.is_here(model):

@@ -91,6 +91,13 @@ class Catalog:
             return False
         return not _is_whole(folder_of(model.name), model.parts)
 
+    def is_incomplete(self, model: Model) -> bool:
+        """Whether a model is here, but was fetched before it had all of its parts."""
+        if isinstance(model, Packaged) or not self.is_here(model):
+            return False
+        folder = folder_of(model.name)
+        return any(not (folder / part.name).is_file() for part in model.parts)
+
     def download(self, name: str) -> Download:
         """The model to fetch. Raises HriError when it is not one to be fetched."""
         match self._known(name):
@@ -138,18 +145,19 @@ def fetch(model: Download, progress: Progress) -> Path:
     """Download a model, check it, unpack it; where it is now.
 
     A download that broke goes on where it stopped, now and at the next call. A model of parts that
-    is here and whole is left as it is, and replaced when it is damaged.
+    is here and whole is left as it is; one that is damaged or lacks a part serves as it is until
+    the whole one is here.
     Raises HriError when another model already exists there, cannot be reached, or is not what it
     should be.
     """
     if _has_whole(model.name, model.parts):
         return folder_of(model.name)
-    target = _free_place(model.name)
+    target = _place(model.name, model.parts)
     archive = target.with_name(f".{model.name}.part")
     try:
         _bring_archive(model, archive, progress)
         try:
-            unpack(archive, target, model.parts)
+            _replace(target, lambda place: unpack(archive, place, model.parts))
         except HriError:
             archive.unlink()
             raise
@@ -160,14 +168,9 @@ def fetch(model: Download, progress: Progress) -> Path:
 
 
 def _has_whole(name: str, parts: tuple[Part, ...]) -> bool:
-    """Whether a model of parts is here as it should be; one that is damaged is taken away."""
+    """Whether a model of parts is here as it should be."""
     folder = folder_of(name)
-    if not parts or not folder.is_dir():
-        return False
-    if _is_whole(folder, parts):
-        return True
-    _take_away(folder)
-    return False
+    return bool(parts) and folder.is_dir() and _is_whole(folder, parts)
 
 
 def _is_whole(folder: Path, parts: tuple[Part, ...]) -> bool:
@@ -176,6 +179,17 @@ def _is_whole(folder: Path, parts: tuple[Part, ...]) -> bool:
     except (HriError, OSError):
         return False
     return True
+
+
+def _replace(target: Path, fill: Callable[[Path], object]) -> None:
+    """Fill a new folder, and put it where a model is that is not whole."""
+    new = target.with_name(f".{target.name}.new")
+    if new.exists():
+        _take_away(new)
+    fill(new)
+    if target.exists():
+        _take_away(target)
+    new.rename(target)
 
 
 def _take_away(folder: Path) -> None:
@@ -208,12 +222,12 @@ def bring(name: str, source: Path, parts: tuple[Part, ...] = ()) -> Path:
     """
     if _has_whole(name, parts):
         return folder_of(name)
-    target = _free_place(name)
+    target = _place(name, parts)
     try:
         if source.is_dir():
-            _copy(source, target, parts)
+            _replace(target, lambda place: _copy(source, place, parts))
         elif source.is_file() and zipfile.is_zipfile(source):  # A pipe or device may never end.
-            unpack(source, target, parts)
+            _replace(target, lambda place: unpack(source, place, parts))
         else:
             raise HriError(f"{source}: neither a folder nor a ZIP archive - fix the path")
     except (OSError, shutil.Error) as error:
@@ -230,9 +244,10 @@ def _copy(source: Path, target: Path, parts: tuple[Part, ...]) -> None:
             shutil.copyfile(source / part.name, folder / part.name)
 
 
-def _free_place(name: str) -> Path:
+def _place(name: str, parts: tuple[Part, ...]) -> Path:
+    """Where a model goes: of one without parts nobody knows whether it is whole."""
     target = folder_of(name)
-    if target.exists():
+    if target.exists() and not (parts and target.is_dir()):
         raise HriError(f"{target} already exists - delete it to fetch it again")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)

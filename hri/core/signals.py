@@ -390,6 +390,44 @@ class Countenance:
 
 
 @dataclass(frozen=True, slots=True)
+class Hand:
+    """A hand of someone, as it was looked at last."""
+
+    side: str
+    """The person's own: "left" or "right"."""
+    time: float
+    """Seconds, of the picture in which it was looked at; pictures between show the same."""
+    landmarks: Landmarks
+    """Shape [21, 3], pixels: wrist, then four from the root of each finger to its tip, the thumb
+    first; depth in pixels too, negative nearer than the wrist.
+    """
+    shape: str = ""
+    """One of "open", "pointing", "thumb", "fist"; empty for any other."""
+    straight: tuple[bool, ...] = (False,) * 5
+    """Which fingers are straight, the thumb first."""
+    presence: float = 1.0
+    """How surely it is a hand, 0 to 1."""
+    is_palm: bool = False
+    """Whether it shows its palm, not its back."""
+    bearing: float = 0.0
+    """Radians from the robot's straight ahead to the left."""
+    elevation: float = 0.0
+    """Radians from the robot's straight ahead up."""
+    pointing_bearing: float = 0.0
+    """Where the index finger points: radians to the left of what the robot calls ahead; pi, or
+    -pi, is back at the robot."""
+    pointing_elevation: float = 0.0
+    """Radians above level."""
+    number: int = 0
+    """The same while it is followed."""
+
+    @property
+    def fingers(self) -> int:
+        """How many fingers are straight, 0 to 5."""
+        return sum(self.straight)
+
+
+@dataclass(frozen=True, slots=True)
 class Person:
     """Someone whom the camera sees, or saw a moment ago."""
 
@@ -421,6 +459,23 @@ class Person:
     """None without a face mesh."""
     name: str = ""
     """The person's name, when a face recognizer knows it."""
+    hands: tuple[Hand, ...] = ()
+    """Those that are followed, at most two; none without the networks of hands."""
+
+
+@dataclass(frozen=True, slots=True)
+class HandGesture:
+    """A gesture of a hand."""
+
+    kind: str
+    """Its row in `config/hands.toml`, such as "wave"."""
+    time: float
+    """Seconds, of the picture with which it was complete."""
+    hand: Hand
+    person: str = ""
+    """Id of whose it is."""
+    latency: float = 0.0
+    """Seconds since it began."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -92,6 +92,23 @@ class CameraView:
         depth = focal * meters / pixels
         return depth * math.hypot(x - size[0] / 2, y - size[1] / 2, focal) / focal
 
+    def pointed(
+        self, direction: tuple[float, float, float], x: float, y: float, size: Size
+    ) -> tuple[float, float]:
+        """Bearing (to the left) and elevation (up) in which something at a pixel points, radians.
+
+        `direction` is as it looks from the camera there: right, down and away from the camera.
+        """
+        line = np.array([x - size[0] / 2, y - size[1] / 2, self.focal_length(size)])
+        line /= np.linalg.norm(line)
+        # The turn from the middle of the picture to the pixel: about their common normal.
+        normal = np.array([-line[1], line[0], 0.0])
+        cross = np.array([[0, 0, normal[1]], [0, 0, -normal[0]], [-normal[1], normal[0], 0]])
+        turn = np.eye(3) + cross + cross @ cross / (1 + line[2])
+        in_robot: Matrix = ROBOT_FROM_CAMERA @ (turn @ np.array(direction))
+        ahead, left, up = self.mount.rotation() @ in_robot
+        return math.atan2(left, ahead), math.atan2(up, math.hypot(ahead, left))
+
     def _ray(self, x: float, y: float, size: Size) -> Matrix:
         """From the camera through a pixel, in the robot's axes; of any length."""
         in_camera = np.array([x - size[0] / 2, y - size[1] / 2, self.focal_length(size)])

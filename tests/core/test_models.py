@@ -8,6 +8,7 @@ import os
 import stat
 import threading
 import zipfile
+from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
@@ -310,6 +311,22 @@ def test_what_is_damaged_is_fetched_again(server, damage):
         eye.unlink()
     fetch(model, no_progress)
     assert eye.read_bytes() == NOISE
+
+
+def test_what_was_fetched_before_it_grew_serves_until_it_is_whole(server, monkeypatch, capsys):
+    whole = of_parts(server)
+    before = replace(whole, parts=whole.parts[:1])
+    folder = fetch(before, no_progress)
+    kept = (folder / whole.parts[0].name).read_bytes()
+    monkeypatch.setattr(command, "CATALOG", Catalog([whole]))
+    assert main.main(["models"]) == 0
+    assert "incomplete: fetch it" in capsys.readouterr().out
+    with pytest.raises(HriError, match="checksum is wrong"):
+        fetch(replace(whole, sha256="0" * 64), no_progress)
+    assert (folder / whole.parts[0].name).read_bytes() == kept
+    assert fetch(whole, no_progress) == folder
+    assert all((folder / part.name).is_file() for part in whole.parts)
+    assert leftovers() == [folder.name]
 
 
 @pytest.mark.parametrize(

@@ -43,7 +43,7 @@ Affine = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """The square of a picture that holds a face, turned so that the face stands upright in it."""
+    """The square of a picture that holds a face or a hand, turned so that it is upright in it."""
 
     x: float
     """Pixels, the middle."""
@@ -78,9 +78,9 @@ class FaceMesh:
         Its presence says whether a face is there: trust the landmarks above 0.5. None for what
         is not a picture of 8 bits RGB, and for a region that is not in it.
         """
-        if not is_picture(image) or not _is_in(region, image):
+        if not is_picture(image) or not is_in(region, image):
             return None
-        part, to_part = _upright(image, region)
+        part, to_part = upright(image, region, SIDE)
         smoothing = min(MOST_SMOOTHING, SMOOTHING * darkness(part))
         smooth = np.asarray(cv2.GaussianBlur(part, (0, 0), smoothing), np.uint8)
         answers = self._network.run(evened(smooth))
@@ -130,7 +130,8 @@ def disagreement(found: FoundFace, landmarks: Landmarks) -> float:
     return float(away) * MARGIN / region_of_landmarks(landmarks).side
 
 
-def _is_in(region: Region, image: Image) -> bool:
+def is_in(region: Region, image: Image) -> bool:
+>>>>>>> 50ea8edb (Hands: MediaPipe's networks of palms and hands run in OpenCV, followed at a modeled cost)
     """Whether a region is of a sensible size, with its middle in the picture."""
     height, width = image.shape[:2]
     numbers = (region.x, region.y, region.side, region.roll)
@@ -142,23 +143,23 @@ def _is_in(region: Region, image: Image) -> bool:
     )
 
 
-def _upright(image: Image, region: Region) -> tuple[Image, Affine]:
-    """The region turned upright, in the size that the network takes, and what leads there."""
+def upright(image: Image, region: Region, side: int) -> tuple[Image, Affine]:
+    """The region turned upright, in a square of that many pixels, and what leads there."""
     turn = cv2.getRotationMatrix2D(
-        (region.x, region.y), math.degrees(region.roll), SIDE / region.side
+        (region.x, region.y), math.degrees(region.roll), side / region.side
     )
     there: Affine = np.asarray(turn, np.float64)
-    there[:, 2] += (SIDE / 2 - region.x, SIDE / 2 - region.y)
+    there[:, 2] += (side / 2 - region.x, side / 2 - region.y)
     reach = region.side * math.sqrt(0.5) + 1
     left, top = max(0, int(region.x - reach)), max(0, int(region.y - reach))
     part = image[top : int(region.y + reach), left : int(region.x + reach)]
     # A large face is averaged to about the size of the network's picture: turning it below takes
     # single pixels, with all their noise.
-    shrink = max(1, min(int(region.side / SIDE), *part.shape[:2]))
+    shrink = max(1, min(int(region.side / side), *part.shape[:2]))
     height, width = part.shape[0] // shrink, part.shape[1] // shrink
     whole = part[: height * shrink, : width * shrink]
     small = cv2.resize(whole, (width, height), interpolation=cv2.INTER_AREA)
     # The middle of a pixel lies at whole numbers, so that a corner lies half a pixel before.
     half = (shrink - 1) / 2
     back = np.array([[shrink, 0, left + half], [0, shrink, top + half], [0, 0, 1]])
-    return np.asarray(cv2.warpAffine(small, there @ back, (SIDE, SIDE)), np.uint8), there
+    return np.asarray(cv2.warpAffine(small, there @ back, (side, side)), np.uint8), there

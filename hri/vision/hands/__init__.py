@@ -1,0 +1,1 @@
+"""Hands: their shape, following them, and their gestures."""

@@ -1,0 +1,258 @@
+"""The hands of the people who are seen: found now and then, and followed from look to look.
+
+A look at a hand costs more than all the rest of seeing, and to search for one twice that. So hands
+are looked at a few times a second, one in a picture: each picture brings some milliseconds, and
+what has been saved up pays for the next look. The costs are modeled, not measured, so that the same
+pictures give the same hands on every machine.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hri.core.signals import FaceBox, Frame, Hand, Image, People, Person
+from hri.vision.camera_view import CameraView
+from hri.vision.detectors.hand_mesh import FittedHand, HandMesh, region_of_hand
+from hri.vision.detectors.mesh import Region
+from hri.vision.detectors.palm import PalmDetector, hand_region
+from hri.vision.detectors.preprocessing import is_picture
+from hri.vision.hands.hand_shape import FIST, hand_shape, shows_palm
+from hri.vision.hands.reach import Movement, owner_of, part_to_search
+
+SEARCH_COST, LOOK_COST = 38.0, 15.0
+"""Milliseconds of a search for palms, and of a look at one hand, on one core of 2.5 GHz."""
+INCOME = 130.0
+"""Milliseconds a second that may be spent: some 8 looks, or one search and 6."""
+SAVED = 40.0
+"""Milliseconds that can be saved up at most: one search."""
+SEARCH_MOVING, SEARCH_STILL = 0.8, 2.4
+"""Seconds between two searches while something moves in reach of someone, and else: also while a
+hand shows something, which a search would leave unseen for some pictures."""
+PRESENT = 0.5
+"""Least presence of a hand."""
+MISSES = 2
+"""Looks in a row that find no hand, after which it is gone."""
+FORGOTTEN = 1.5
+"""Seconds after which a hand that was not looked at is gone."""
+SAME = 0.35
+"""Sides of their regions; nearer to each other, two hands are one."""
+MOST_EACH = 2
+MOST_CANDIDATES = 4
+RESTING = 0.3
+"""How urgent a look at a hand is that does nothing, as a part of that at another."""
+SIDES_KEPT = 0.7
+"""Part of what was known of the side that counts at the next look."""
+
+
+@dataclass(slots=True)
+class HandTrack:
+    """A hand that is followed, or may be one."""
+
+    number: int
+    region: Region
+    person: str
+    looked: float
+    """Seconds, when it was looked at last."""
+    found: float
+    """Seconds, when it was seen last."""
+    hand: Hand | None = None
+    """None until the first look."""
+    left: float = 0.5
+    misses: int = 0
+
+
+class HandTracker:
+    """Adds hands to the people of each picture; the same pictures and people give the same hands.
+
+    Only who is seen has hands. It begins anew when time goes back or leaps.
+    """
+
+    def __init__(self, palms: PalmDetector, mesh: HandMesh, view: CameraView | None = None) -> None:
+        self._palms, self._mesh, self._view = palms, mesh, view or CameraView()
+        self._time = -math.inf
+        self._forget()
+
+    def _forget(self) -> None:
+        self._tracks: list[HandTrack] = []
+        self._movement = Movement()
+        self._saved = SAVED
+        self._searched = -math.inf
+        self._turns, self._numbers = itertools.count(), itertools.count(1)
+        self._searched_for: dict[str, float] = {}
+
+    def see(self, frame: Frame, people: People, is_late: bool = False) -> People:
+        """The people with their hands. `is_late`: this picture has cost much already."""
+        if not is_picture(frame.image) or not math.isfinite(frame.time):
+            return people
+        elapsed = frame.time - self._time
+        if elapsed == 0:
+            return self._with_hands(people)
+        if not 0 < elapsed <= FORGOTTEN:
+            self._forget()
+            elapsed = 0.0
+        self._time = frame.time
+        self._saved = min(SAVED, self._saved + INCOME * elapsed)
+        self._movement.see(frame.image, frame.time)
+        here = [person for person in people.persons if person.is_visible]
+        self._keep({person.id for person in people.persons})
+        if here and not is_late:
+            self._spend(frame, here, people.attended)
+        return self._with_hands(people)
+
+    def _keep(self, ids: set[str]) -> None:
+        """Give up the hands of who is gone, and those that were not seen for long."""
+        self._tracks = [
+            track
+            for track in self._tracks
+            if track.person in ids and self._time - track.found <= FORGOTTEN
+        ]
+        self._searched_for = {id: time for id, time in self._searched_for.items() if id in ids}
+
+    def _spend(self, frame: Frame, here: Sequence[Person], attended: str) -> None:
+        """A search, or one look, as far as it can be paid."""
+        for face in (person.pose.box for person in here):
+            if face is not None:
+                self._movement.forget(face)
+        search = self._next_search(frame.image, here, attended)
+        new = [track for track in self._tracks if track.hand is None]
+        if search is not None and not new:
+            # Nothing else is looked at until the search is paid.
+            if self._saved >= SEARCH_COST:
+                self._saved -= SEARCH_COST
+                self._search(frame, here, *search)
+        elif self._tracks and self._saved >= LOOK_COST:
+            self._saved -= LOOK_COST
+            self._look(frame, max(self._tracks, key=self._urgency), here)
+
+    def _next_search(
+        self, image: Image, here: Sequence[Person], attended: str
+    ) -> tuple[Person, Region] | None:
+        """For whose hands to search now, and where; None while there is no need."""
+        waited = self._time - self._searched
+        is_busy = any(not _is_resting(track) for track in self._tracks)
+        if waited < (SEARCH_STILL if is_busy else SEARCH_MOVING):
+            return None
+        size = image.shape[1], image.shape[0]
+        for track in self._tracks:
+            self._movement.forget(_box(track.region))
+        best: tuple[tuple[bool, float, bool], Person, Region] | None = None
+        for person in here:
+            known = sum(track.person == person.id for track in self._tracks)
+            if person.pose.box is None or known >= MOST_EACH:
+                continue
+            turn = next(self._turns)
+            part, moved = part_to_search(person.pose.box, self._movement, size, turn)
+            since = self._time - self._searched_for.get(person.id, -math.inf)
+            if moved > 0 or waited >= SEARCH_STILL:
+                order = (moved > 0, min(since, 60.0), person.id == attended)
+                if best is None or order > best[0]:
+                    best = order, person, part
+        return None if best is None else best[1:]
+
+    def _search(
+        self, frame: Frame, here: Sequence[Person], person: Person, part: Region
+    ) -> None:
+        self._searched = self._searched_for[person.id] = frame.time
+        self._movement.forget(_box(part))
+        faces = [one.pose.box or FaceBox(0, 0, 0, 0) for one in here]
+        for palm in self._palms.find(frame.image, part)[:MOST_CANDIDATES]:
+            region = hand_region(palm)
+            owner = owner_of(region, faces)
+            if owner is None or any(_are_same(region, track.region) for track in self._tracks):
+                continue
+            id = here[owner].id
+            if sum(track.person == id for track in self._tracks) < MOST_EACH:
+                number = next(self._numbers)
+                self._tracks.append(HandTrack(number, region, id, -math.inf, frame.time))
+
+    def _urgency(self, track: HandTrack) -> tuple[bool, float]:
+        """Of a look: at what may be a hand first, then at who has waited longest."""
+        waited = min(60.0, self._time - track.looked)
+        return track.hand is None, waited * (RESTING if _is_resting(track) else 1.0)
+
+    def _look(self, frame: Frame, track: HandTrack, here: Sequence[Person]) -> None:
+        is_new = track.hand is None
+        track.looked = frame.time
+        fitted = self._mesh.fit(frame.image, track.region)
+        if fitted is None or fitted.presence < PRESENT:
+            track.misses += 1
+            if is_new or track.misses >= MISSES:
+                self._tracks.remove(track)
+            return
+        region = region_of_hand(fitted.landmarks)
+        others = [other for other in self._tracks if other is not track]
+        if any(_are_same(region, other.region) for other in others if other.hand is not None):
+            self._tracks.remove(track)
+            return
+        track.region, track.misses, track.found = region, 0, frame.time
+        track.left = fitted.left if is_new else (
+            SIDES_KEPT * track.left + (1 - SIDES_KEPT) * fitted.left
+        )
+        size = frame.image.shape[1], frame.image.shape[0]
+        described = _described(fitted, track.left > 0.5, frame.time, self._view, size)
+        track.hand = replace(described, number=track.number)
+        owner = owner_of(region, [person.pose.box or FaceBox(0, 0, 0, 0) for person in here])
+        known = {person.id for person in here}
+        if track.person in known and owner is None:
+            self._tracks.remove(track)
+
+    def _with_hands(self, people: People) -> People:
+        if not any(track.hand is not None for track in self._tracks):
+            return people
+        persons = tuple(
+            replace(person, hands=self._hands_of(person)) for person in people.persons
+        )
+        return replace(people, persons=persons)
+
+    def _hands_of(self, person: Person) -> tuple[Hand, ...]:
+        return tuple(
+            track.hand
+            for track in self._tracks
+            if track.person == person.id and track.hand is not None
+        )
+
+
+def _described(
+    fitted: FittedHand, is_left: bool, time: float, view: CameraView, size: tuple[int, int]
+) -> Hand:
+    landmarks = fitted.landmarks
+    shape = hand_shape(landmarks)
+    x, y = landmarks[[0, 5, 17], :2].mean(axis=0).tolist()
+    bearing, elevation = view.toward(x, y, size)
+    finger = (landmarks[8] - landmarks[5]).astype(np.float64)
+    across, down, away = (finger / (np.linalg.norm(finger) + 1e-9)).tolist()
+    to_side, up = view.pointed((across, down, away), x, y, size)
+    return Hand(
+        "left" if is_left else "right",
+        time,
+        landmarks,
+        shape.name,
+        shape.straight,
+        fitted.presence,
+        shows_palm(landmarks, is_left),
+        bearing,
+        elevation,
+        to_side,
+        up,
+    )
+
+
+def _is_resting(track: HandTrack) -> bool:
+    """Whether a hand shows nothing."""
+    return track.hand is not None and track.hand.shape in ("", FIST)
+
+
+def _are_same(first: Region, second: Region) -> bool:
+    away = math.hypot(first.x - second.x, first.y - second.y)
+    return away < SAME * max(first.side, second.side)
+
+
+def _box(region: Region) -> FaceBox:
+    return FaceBox(
+        region.x - region.side / 2, region.y - region.side / 2, region.side, region.side
+    )
