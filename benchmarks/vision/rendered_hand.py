@@ -49,7 +49,7 @@ class Bent:
         """A little else, as no two people hold a hand alike."""
         bent = np.array(self.fingers) + random.normal(0, degrees, (5, 3))
         rows = tuple(tuple(max(-10.0, angle) for angle in row) for row in bent.tolist())
-        return Bent(rows, self.spread + float(random.uniform(-1, 3)))  # type: ignore[arg-type]
+        return Bent(rows, self.spread + float(random.uniform(-1, 3)))
 
 
 def shown(*straight: int) -> Bent:
@@ -88,7 +88,8 @@ def turned(roll: float = 0.0, yaw: float = 0.0, pitch: float = 0.0) -> NDArray[n
     rolled = [[math.cos(r), -math.sin(r), 0], [math.sin(r), math.cos(r), 0], [0, 0, 1]]
     yawed = [[math.cos(y), 0, math.sin(y)], [0, 1, 0], [-math.sin(y), 0, math.cos(y)]]
     pitched = [[1, 0, 0], [0, math.cos(p), -math.sin(p)], [0, math.sin(p), math.cos(p)]]
-    return np.array(pitched) @ np.array(yawed) @ np.array(rolled)
+    turn: NDArray[np.float64] = np.array(pitched) @ np.array(yawed) @ np.array(rolled)
+    return turn
 
 
 class HandMesh:
@@ -196,7 +197,7 @@ def _about(pose: NDArray[np.float64], axis: int, degrees: float) -> NDArray[np.f
     """A turn about an axis of a bone through its joint."""
     vector, place = pose[:3, axis], pose[:3, 3]
     turn = cv2.Rodrigues(vector / np.linalg.norm(vector) * math.radians(degrees))[0]
-    matrix = np.eye(4)
+    matrix: NDArray[np.float64] = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = turn, place - turn @ place
     return matrix
 

@@ -52,6 +52,7 @@ DATATYPES: dict[str, type] = {
     "gaze": signals.Gaze,
     "headpose": signals.HeadPose,
     "gesture": signals.HeadGesture,
+    "handgesture": signals.HandGesture,
     "people": signals.People,
     "objects": signals.Objects,
     "blobs": signals.ColorBlobs,

@@ -17,9 +17,9 @@ Listener = Callable[[Event], object]
 # fmt: off
 OWN_SUBJECTS = frozenset((
     "alarm", "battery", "behavior", "bumper", "button", "camera", "cliff", "drive", "emotion",
-    "emotions", "face", "gesture", "grammar", "head", "idle", "memory", "microphone", "motion",
-    "network", "object", "odometry", "person", "question", "recording", "replies", "speech",
-    "stimulus", "studio", "target", "task", "vision", "visitor", "window",
+    "emotions", "face", "gesture", "grammar", "hand", "head", "idle", "memory", "microphone",
+    "motion", "network", "object", "odometry", "person", "question", "recording", "replies",
+    "speech", "stimulus", "studio", "target", "task", "vision", "visitor", "window",
 ))
 # fmt: on
 """What the robot's own events are about: the first word of their names."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError, NotAvailable
-from hri.core.signals import Frame, Gaze, HeadPose, People, Person
+from hri.core.signals import Frame, Gaze, Hand, HeadPose, People, Person
 from hri.hal.camera import Camera
 from hri.vision.camera_view import CameraView
 from hri.vision.engagement import DISENGAGING, ENGAGED, UNENGAGED, Zones
@@ -38,6 +38,7 @@ class PersonTracker(Behavior):
     )
     inner_zone = Param(ZONES.inner, "meters; who is nearer and looks is engaged", minimum=0.1)
     outer_zone = Param(ZONES.outer, "meters; nobody farther away is engaged", minimum=0.1)
+    hands = Param(False, "true: hands are looked at too, which takes half as much time again")
     latency = Param(0.05, "seconds that seeing takes on a fake clock", minimum=0, maximum=1)
 
     image = Input[Frame]("image", "pictures; the newest is seen when there is no time for all")
@@ -52,7 +53,7 @@ class PersonTracker(Behavior):
         try:
             view = CameraView.of(self._camera) if self._camera else CameraView()
             zones = Zones(inner=self.inner_zone, outer=max(self.inner_zone, self.outer_zone))
-            self._seeing = Seeing(self.detector, view, zones)
+            self._seeing = Seeing(self.detector, view, zones, hands=self.hands)
             self._service = context.clock.service(self._seeing, self.latency)
         except HriError:
             self._give_back()  # who cannot start is not stopped either
@@ -230,7 +231,17 @@ def panned(people: People, pan: float) -> People:
     if not pan:
         return people
     turned = (
-        replace(person, bearing=math.remainder(person.bearing + pan, math.tau))
+        replace(
+            person,
+            bearing=math.remainder(person.bearing + pan, math.tau),
+            hands=tuple(_panned_hand(hand, pan) for hand in person.hands),
+        )
         for person in people.persons
     )
     return replace(people, persons=tuple(turned))
+
+
+def _panned_hand(hand: Hand, pan: float) -> Hand:
+    bearings = (hand.bearing + pan, hand.pointing_bearing + pan)
+    bearing, pointing = (math.remainder(angle, math.tau) for angle in bearings)
+    return replace(hand, bearing=bearing, pointing_bearing=pointing)

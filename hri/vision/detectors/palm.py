@@ -27,9 +27,9 @@ GRIDS = ((24, 2), (12, 6))
 POINTS = 7
 WRIST, MIDDLE_KNUCKLE = 0, 2
 """Which of its points they are."""
-LEAST_SCORE = 0.4
-"""Lower than MediaPipe's 0.5: the fit of a hand decides, and a thumb or a pointing finger hides much
-of the palm."""
+LEAST_SCORE = 0.3
+"""Lower than MediaPipe's 0.5: the fit of a hand decides, and who points, or holds a thumb up, hides
+much of the palm."""
 HAND_SCALE, HAND_SHIFT = 2.6, -0.5
 """Of the region of a hand: its side, and how far its middle lies toward the fingers, in sides of
 the palm."""
@@ -67,8 +67,8 @@ class PalmDetector:
         # The two answers: a score for each proposal, and its box and points.
         scores, places = sorted(self._network.run(evened(small)), key=len)
         likely = np.flatnonzero(scores > math.log(LEAST_SCORE / (1 - LEAST_SCORE)))
-        rows = places.reshape(len(scores), -1)[likely].astype(np.float64)
-        back = cv2.invertAffineTransform(there)
+        rows = places.reshape(len(scores), -1)[likely].astype(np.float32)
+        back = cv2.invertAffineTransform(there).astype(np.float32)
         found = [
             _palm(row, anchor * SIDE, float(score), back)
             for row, score, anchor in zip(rows, scores[likely], self._anchors[likely], strict=True)

@@ -128,7 +128,6 @@ class PeopleHands:
 
 
 def _palm(looks: Iterable[Hand]) -> float:
-    """Pixels of the palm from the wrist, when it was seen longest."""
-    return max(
-        float(np.linalg.norm(look.landmarks[MIDDLE, :2] - look.landmarks[0, :2])) for look in looks
-    )
+    """Pixels of the palm from the wrist, when it was seen longest; in depth too, for a fist that
+    is held to the camera."""
+    return max(float(np.linalg.norm(look.landmarks[MIDDLE] - look.landmarks[0])) for look in looks)

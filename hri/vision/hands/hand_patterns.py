@@ -106,7 +106,7 @@ def _pattern(name: str, table: Table) -> HandPattern:
         DIRECTIONS[table.string("toward", "any", among=tuple(DIRECTIONS))],
         math.radians(table.number("within_deg", 180.0, minimum=1.0, maximum=180.0)),
         math.radians(table.number("beyond_deg", 0.0, minimum=0.0, maximum=179.0)),
-        table.boolean("palm", False),
+        table.flag("palm"),
         hold,
         table.number("still", 100.0, minimum=0.01, maximum=100.0),
         int(swings),

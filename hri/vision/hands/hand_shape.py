@@ -45,7 +45,7 @@ class HandShape:
 def hand_shape(points: Landmarks) -> HandShape:
     """The shape of a hand from its 21 points in space, shape [21, 3], of any unit.
 
-    Points that are no hand (all in one place, not finite) have no straight finger and no name.
+    Points all in one place, or not finite, have no straight finger and no name.
     """
     places = points.astype(np.float64)
     palm = float(np.linalg.norm(places[9] - places[WRIST]))

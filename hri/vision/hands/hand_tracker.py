@@ -9,20 +9,25 @@ pictures give the same hands on every machine.
 from __future__ import annotations
 
 import itertools
+import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hri.core.errors import HriError
 from hri.core.signals import FaceBox, Frame, Hand, Image, People, Person
 from hri.vision.camera_view import CameraView
 from hri.vision.detectors.hand_mesh import FittedHand, HandMesh, region_of_hand
 from hri.vision.detectors.mesh import Region
 from hri.vision.detectors.palm import PalmDetector, hand_region
 from hri.vision.detectors.preprocessing import is_picture
+from hri.vision.face_models import HAND, PALM, find_hand_models
 from hri.vision.hands.hand_shape import FIST, hand_shape, shows_palm
 from hri.vision.hands.reach import Movement, owner_of, part_to_search
+
+log = logging.getLogger("hri.vision")
 
 SEARCH_COST, LOOK_COST = 38.0, 15.0
 """Milliseconds of a search for palms, and of a look at one hand, on one core of 2.5 GHz."""
@@ -37,6 +42,10 @@ PRESENT = 0.5
 """Least presence of a hand."""
 MISSES = 2
 """Looks in a row that find no hand, after which it is gone."""
+WIDER = 1.4
+"""Of the region in which a hand is looked for that was missed."""
+AHEAD = 0.5
+"""Part of the way that a hand has moved by which its region grows: it may move back, or on."""
 FORGOTTEN = 1.5
 """Seconds after which a hand that was not looked at is gone."""
 SAME = 0.35
@@ -69,7 +78,7 @@ class HandTrack:
 class HandTracker:
     """Adds hands to the people of each picture; the same pictures and people give the same hands.
 
-    Only who is seen has hands. It begins anew when time goes back or leaps.
+    Only who is seen has hands. It starts from nothing when time goes back or leaps.
     """
 
     def __init__(self, palms: PalmDetector, mesh: HandMesh, view: CameraView | None = None) -> None:
@@ -154,9 +163,7 @@ class HandTracker:
                     best = order, person, part
         return None if best is None else best[1:]
 
-    def _search(
-        self, frame: Frame, here: Sequence[Person], person: Person, part: Region
-    ) -> None:
+    def _search(self, frame: Frame, here: Sequence[Person], person: Person, part: Region) -> None:
         self._searched = self._searched_for[person.id] = frame.time
         self._movement.forget(_box(part))
         faces = [one.pose.box or FaceBox(0, 0, 0, 0) for one in here]
@@ -183,15 +190,21 @@ class HandTracker:
             track.misses += 1
             if is_new or track.misses >= MISSES:
                 self._tracks.remove(track)
+                if not is_new:  # it moved away, and is near
+                    self._searched = min(self._searched, frame.time - SEARCH_MOVING)
+            else:
+                track.region = replace(track.region, side=WIDER * track.region.side)
             return
         region = region_of_hand(fitted.landmarks)
         others = [other for other in self._tracks if other is not track]
         if any(_are_same(region, other.region) for other in others if other.hand is not None):
             self._tracks.remove(track)
             return
-        track.region, track.misses, track.found = region, 0, frame.time
-        track.left = fitted.left if is_new else (
-            SIDES_KEPT * track.left + (1 - SIDES_KEPT) * fitted.left
+        moved = math.hypot(region.x - track.region.x, region.y - track.region.y)
+        seen = replace(region, side=region.side + AHEAD * moved)
+        track.region, track.misses, track.found = seen, 0, frame.time
+        track.left = (
+            fitted.left if is_new else (SIDES_KEPT * track.left + (1 - SIDES_KEPT) * fitted.left)
         )
         size = frame.image.shape[1], frame.image.shape[0]
         described = _described(fitted, track.left > 0.5, frame.time, self._view, size)
@@ -204,9 +217,7 @@ class HandTracker:
     def _with_hands(self, people: People) -> People:
         if not any(track.hand is not None for track in self._tracks):
             return people
-        persons = tuple(
-            replace(person, hands=self._hands_of(person)) for person in people.persons
-        )
+        persons = tuple(replace(person, hands=self._hands_of(person)) for person in people.persons)
         return replace(people, persons=persons)
 
     def _hands_of(self, person: Person) -> tuple[Hand, ...]:
@@ -215,6 +226,16 @@ class HandTracker:
             for track in self._tracks
             if track.person == person.id and track.hand is not None
         )
+
+
+def load_hand_tracker(view: CameraView) -> HandTracker | None:
+    """A tracker with the fetched networks; None, and a line in the log, when they are not here."""
+    try:
+        folder = find_hand_models()
+        return HandTracker(PalmDetector(folder / PALM.name), HandMesh(folder / HAND.name), view)
+    except (HriError, RuntimeError) as error:  # the latter of a home folder that nobody has
+        log.warning(error)
+        return None
 
 
 def _described(
@@ -253,6 +274,4 @@ def _are_same(first: Region, second: Region) -> bool:
 
 
 def _box(region: Region) -> FaceBox:
-    return FaceBox(
-        region.x - region.side / 2, region.y - region.side / 2, region.side, region.side
-    )
+    return FaceBox(region.x - region.side / 2, region.y - region.side / 2, region.side, region.side)

@@ -15,7 +15,7 @@ from hri.vision.detectors.mesh import Region
 CELL = 16
 """Pixels along a side of what is compared."""
 STEP = 4
-"""Every so many pixels one is taken: the average of some will do."""
+"""Every fourth pixel is taken: the average of some will do."""
 APART = 0.15
 """Seconds between pictures that are compared: a hand that is raised moves on by then."""
 MOVED = 8.0
@@ -44,7 +44,7 @@ class Movement:
         """How surely something moved there, 0 to 1, shape [rows, columns]."""
 
     def see(self, image: Image, time: float) -> None:
-        """Compare a picture with one of a moment ago. Of another size, or later, it begins anew."""
+        """Compare a picture with one of a moment ago; of another size, or much later, with none."""
         height, width = image.shape[:2]
         size = max(1, width // CELL), max(1, height // CELL)
         sparse = np.ascontiguousarray(image[::STEP, ::STEP, 1])
@@ -56,7 +56,7 @@ class Movement:
         if time - self._compared < APART:
             return
         difference = np.abs(cells - self._before)
-        # A change of the light, or of the exposure, is no movement.
+        # A change of the light, or of the exposure, does not count.
         changed = (difference - float(np.median(difference)) > MOVED).astype(np.float32)
         fading = 0.5 ** ((time - self._compared) / FADING) if math.isfinite(elapsed) else 0.0
         self.moved = np.maximum(changed, self.moved * np.float32(fading))

@@ -23,6 +23,7 @@ from hri.vision.detectors.mesh import disagreement, region_of, region_of_landmar
 from hri.vision.detectors.preprocessing import gray_picture
 from hri.vision.detectors.search_squares import SearchPlan
 from hri.vision.engagement import Zones
+from hri.vision.hands.hand_tracker import load_hand_tracker
 from hri.vision.tracking.appearance import Look, look_of
 from hri.vision.tracking.assignment import assigned
 from hri.vision.tracking.face_track import MAX_GAP, FaceTrack, Sight, is_face
@@ -109,6 +110,11 @@ class PeopleTracker:
         self._settle(sight)
         self._note(sight)
         return self._described(sight)
+
+    @property
+    def searched(self) -> float:
+        """Seconds, of the picture that was searched last."""
+        return self._searched
 
     def _forget(self) -> None:
         self._known: list[PersonTrack] = []
@@ -357,12 +363,23 @@ class Seeing:
     zones: Zones
     first: int = 1
     """Number of the first person whom the next tracker sees."""
+    hands: bool = False
+    """Whether hands are looked at too."""
 
     def __call__(self) -> Callable[[Frame], People]:
         detectors = load_detectors(self.setting)
         for problem in detectors.problems:
             log.warning(problem)
-        return PeopleTracker(detectors, self.view, self.zones, self.first).see
+        tracker = PeopleTracker(detectors, self.view, self.zones, self.first)
+        hands = load_hand_tracker(self.view) if self.hands else None
+        if hands is None:
+            return tracker.see
+
+        def see(frame: Frame) -> People:
+            people = tracker.see(frame)
+            return hands.see(frame, people, is_late=tracker.searched == frame.time)
+
+        return see
 
     def note(self, people: People) -> None:
         """Let no tracker made from now on give the ids of these people again."""
