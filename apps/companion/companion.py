@@ -30,7 +30,7 @@ from hri.conversation import (
     sayings,
     suits,
 )
-from hri.core import Event, Expression, Latest, NotAvailable, Person
+from hri.core import Event, Expression, Hand, Latest, NotAvailable, Person
 from hri.drive import CommandGate, SupervisorRelay
 from hri.emotion import EmotionModel, load_stimuli, personality_names, personality_path
 from hri.face import FaceRenderer, load_face, load_gestures
@@ -114,6 +114,9 @@ class Companion:
         self.agreeing = Lane(context)
         self.lessons = Lane(context)
         self.floor = Lane(context)
+        self.pointing = Lane(context)
+        self.pointed: tuple[float, Hand] | None = None
+        """When someone pointed at something last, and with which hand."""
         self.is_asleep = False
         self.fidgets = True
         """Whether the base may move a little while nothing happens."""

@@ -6,6 +6,7 @@ take_saved_replies  reads the replies again when they are saved
 notice      reacts to a bump and a low battery, and feels ignored; the triggers in
             emotions/stimuli handle other events
 acquaint    keeps the memory of people, and greets those whose face is known
+heed_hands  waves back, stops before an open hand, looks where someone points
 attend      nods to who talks for long, and shows that it thinks
 pose        moves the base a little as a feeling begins to show
 idle        does small things while nothing happens: looks about, hums, stretches, dozes off
@@ -58,6 +59,7 @@ from .actions import (
 )
 from .asking import ask, next_question
 from .companion import Companion, authored_replies, vocabulary_of
+from .hands import heed_hands
 from .idling import authored_acts, idle
 from .moving_by_feeling import pose
 from .presence import attend
@@ -80,6 +82,7 @@ __all__ = [
     "forget",
     "forget_me",
     "forget_that",
+    "heed_hands",
     "idle",
     "introduce",
     "know_about_me",

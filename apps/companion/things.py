@@ -10,6 +10,7 @@ from hri.task import TaskContext, immediate
 from hri.vision import NoCamera, NothingShown, forget_object, learn_object, objects_of
 
 from .companion import Companion
+from .hands import POINTED_FOR, pointed_at
 
 LOOKING_S = 5.0
 """How long a thing is shown."""
@@ -67,8 +68,10 @@ async def _find(context: TaskContext, companion: Companion, thing: str) -> None:
 
 @immediate
 def see(context: TaskContext) -> str:
-    """Say what is in sight."""
+    """Say what someone points at, or else what is in sight."""
     companion = Companion.of(context)
+    if (thing := _pointed_at(companion)) is not None:
+        return companion.words("sees_pointed", thing=thing.name)
     names = [f"your {name}" for name in dict.fromkeys(one.name for one in _seen(companion))]
     if companion.person() is not None:
         names.append("you")
@@ -86,6 +89,16 @@ def where(context: TaskContext, thing: str) -> str:
         if one.name == thing:
             return companion.words("sees_at", thing=thing, place=_place(one))
     return companion.words("not_in_sight", thing=thing)
+
+
+def _pointed_at(companion: Companion) -> FoundObject | None:
+    """What someone points at, or did a moment ago."""
+    if companion.pointed is None:
+        return None
+    time, hand = companion.pointed
+    if companion.context.clock.now() - time > POINTED_FOR:
+        return None
+    return pointed_at(hand, _seen(companion))
 
 
 def _seen(companion: Companion) -> tuple[FoundObject, ...]:

@@ -20,7 +20,7 @@ TIMES = 3
 """How often it is said at most."""
 ONCE_MORE = "You may have heard this already."
 """Said first where the robot was switched off while it said it."""
-ANSWERS = ("speech.heard", "speech.rejected", "head.nodded", "head.shaken")
+ANSWERS = ("speech.heard", "speech.rejected", "head.nodded", "head.shaken", "hand.*")
 """What shows that someone heard it."""
 
 Words = Callable[[Alarm, float], str]

@@ -24,6 +24,8 @@ from .signals import (
     FoundObject as FoundObject,
     Frame as Frame,
     Gaze as Gaze,
+    Hand as Hand,
+    HandGesture as HandGesture,
     HeadGesture as HeadGesture,
     HeadPose as HeadPose,
     HeardSlot as HeardSlot,

@@ -60,9 +60,11 @@ class Ending(Enum):
 
 ANSWERS = {"yes": True, "no": False, "head.nodded": True, "head.shaken": False}
 """What counts as an answer: rules of the grammar and head gestures."""
+THUMB = "hand.thumb"
+"""So does a thumb, up or down."""
 
 ROBOT_SPEAKS = ("speech.said", "speech.finished")
-ANSWERING = ("speech.heard", "speech.rejected", "head.*", *ROBOT_SPEAKS)
+ANSWERING = ("speech.heard", "speech.rejected", "head.*", THUMB, *ROBOT_SPEAKS)
 """Events that matter while a question is open."""
 
 SHOWN = "expression.override"
@@ -168,9 +170,9 @@ async def ask(
 ) -> bool | Utterance | None:
     """Ask a question; the answer, or None without one.
 
-    Without a grammar it is a yes/no question: a nod, a shake, "yes" and "no" are answers, and
-    anything else that is heard changes the subject. Of several people, only the one attended to
-    answers with the head. With the name or path of a `grammar`, which is looked for in the app's
+    Without a grammar it is a yes/no question: a nod, a shake, a thumb up or down, "yes" and "no"
+    are answers, and anything else that is heard changes the subject. Of several people, only the
+    one attended to answers with the head or a hand. With the name or path of a `grammar`, which is looked for in the app's
     own folder first, that one is in force while the question is open, and the first thing heard is
     the answer, also among other words (see `hri.speech.answering`). "Never mind" ends the question
     without an answer, "what did you say" has it said again; rules marked @interrupts of the
@@ -201,7 +203,7 @@ async def ask_in_force(
 ) -> bool | Utterance | Ending:
     """Ask a question that the grammar in force answers; the answer, or why there is none.
 
-    A nod or a shake answers one that `is_yes_or_no`. `questions` are what is asked, by tag, where
+    A nod, a shake or a thumb answers one that `is_yes_or_no`. `questions` are what is asked, by tag, where
     only that tag was unclear. Otherwise as `ask`.
     """
     grammar = context.behavior(Listener).loaded_grammar
@@ -212,8 +214,9 @@ async def ask_in_force(
     def nodded_or_heard(
         context: TaskContext, event: Event
     ) -> tuple[bool | Utterance | None] | _Refusal | _Again | None:
-        if event.name in ANSWERS and _is_asked(context, event.properties.get("person", "")):
-            return (ANSWERS[event.name],)
+        shown = _shown_answer(event)
+        if shown is not None and _is_asked(context, event.properties.get("person", "")):
+            return (shown,)
         return answer_of(context, event)
 
     return await _ask(context, question, timeout, retries, nodded_or_heard)
@@ -345,7 +348,7 @@ async def _first_answer(
 
 
 def _tell_answer(context: TaskContext, question: str, answer: object, event: Event) -> None:
-    by = "speech" if event.name == "speech.heard" else "head"
+    by = {"speech.heard": "speech", THUMB: "hand"}.get(event.name, "head")
     told = answer.text if isinstance(answer, Utterance) else answer
     # Of a nod or a shake it is known whose it was, and they are thanked for it.
     who = {"person": person} if (person := event.properties.get("person")) else {}
@@ -358,7 +361,16 @@ def _plain_answer(context: TaskContext, event: Event) -> tuple[bool | None] | No
         return None
     if key in ANSWERS:
         return (ANSWERS[key],)
+    if (shown := _shown_answer(event)) is not None:
+        return (shown,)
     return (None,) if event.name == "speech.heard" else None
+
+
+def _shown_answer(event: Event) -> bool | None:
+    """What a gesture of head or hand answers; None for what is no such gesture."""
+    if event.name == THUMB:
+        return {"up": True, "down": False}.get(event.properties.get("direction", ""))
+    return ANSWERS.get(event.name)
 
 
 def _is_asked(context: TaskContext, person: str) -> bool:

@@ -5,6 +5,7 @@ from .behaviors import (
 )
 from .camera_view import CameraView as CameraView
 from .gestures.gesture_behaviors import HeadGestures as HeadGestures
+from .hands.hand_behaviors import HandGestures as HandGestures
 from .head_pose import head_pose as head_pose
 from .naming import FaceNames as FaceNames
 from .objects.learning import ObjectLearner as ObjectLearner

@@ -17,13 +17,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hri.core.errors import HriError
-from hri.core.signals import FaceBox, Frame, Hand, Image, People, Person
+from hri.core.signals import FaceBox, Frame, Hand, Image, Landmarks, People, Person
 from hri.vision.camera_view import CameraView
 from hri.vision.detectors.hand_mesh import FittedHand, HandMesh, region_of_hand
 from hri.vision.detectors.mesh import Region
 from hri.vision.detectors.palm import PalmDetector, hand_region
-from hri.vision.detectors.preprocessing import is_picture
+from hri.vision.detectors.preprocessing import Picture, gray_picture
 from hri.vision.face_models import HAND, PALM, find_hand_models
+from hri.vision.hands.hand_flow import PALM as FOLLOWED, moved_by
 from hri.vision.hands.hand_shape import FIST, hand_shape, shows_palm
 from hri.vision.hands.reach import Movement, owner_of, part_to_search
 
@@ -42,10 +43,10 @@ PRESENT = 0.5
 """Least presence of a hand."""
 MISSES = 2
 """Looks in a row that find no hand, after which it is gone."""
-WIDER = 1.4
-"""Of the region in which a hand is looked for that was missed."""
-AHEAD = 0.5
-"""Part of the way that a hand has moved by which its region grows: it may move back, or on."""
+WIDER = 1.25
+"""Of the region of a palm that was just found, or of a hand that was missed: until it is looked at
+it moves, and a hand that is cut by the edge is taken for none, while in a region twice as large it
+still fits."""
 FORGOTTEN = 1.5
 """Seconds after which a hand that was not looked at is gone."""
 SAME = 0.35
@@ -69,6 +70,8 @@ class HandTrack:
     """Seconds, when it was looked at last."""
     found: float
     """Seconds, when it was seen last."""
+    places: Landmarks
+    """Points of the palm, shape [n, 2], pixels; as they have moved since the last look."""
     hand: Hand | None = None
     """None until the first look."""
     left: float = 0.5
@@ -89,6 +92,7 @@ class HandTracker:
     def _forget(self) -> None:
         self._tracks: list[HandTrack] = []
         self._movement = Movement()
+        self._before: Picture | None = None
         self._saved = SAVED
         self._searched = -math.inf
         self._turns, self._numbers = itertools.count(), itertools.count(1)
@@ -96,7 +100,8 @@ class HandTracker:
 
     def see(self, frame: Frame, people: People, is_late: bool = False) -> People:
         """The people with their hands. `is_late`: this picture has cost much already."""
-        if not is_picture(frame.image) or not math.isfinite(frame.time):
+        picture = gray_picture(frame.image)
+        if picture is None or not math.isfinite(frame.time):
             return people
         elapsed = frame.time - self._time
         if elapsed == 0:
@@ -109,6 +114,7 @@ class HandTracker:
         self._movement.see(frame.image, frame.time)
         here = [person for person in people.persons if person.is_visible]
         self._keep({person.id for person in people.persons})
+        self._follow(picture)
         if here and not is_late:
             self._spend(frame, here, people.attended)
         return self._with_hands(people)
@@ -121,6 +127,18 @@ class HandTracker:
             if track.person in ids and self._time - track.found <= FORGOTTEN
         ]
         self._searched_for = {id: time for id, time in self._searched_for.items() if id in ids}
+
+    def _follow(self, picture: Picture) -> None:
+        """Move the regions along with the hands since the picture before."""
+        before, self._before = self._before, picture
+        if before is None or before.gray.shape != picture.gray.shape:
+            return
+        for track in self._tracks:
+            moved = moved_by(before.gray, picture.gray, track.places / before.scale)
+            across, down = (shift * picture.scale for shift in moved)
+            track.places = track.places + np.array((across, down), np.float32)
+            region = track.region
+            track.region = replace(region, x=region.x + across, y=region.y + down)
 
     def _spend(self, frame: Frame, here: Sequence[Person], attended: str) -> None:
         """A search, or one look, as far as it can be paid."""
@@ -168,14 +186,16 @@ class HandTracker:
         self._movement.forget(_box(part))
         faces = [one.pose.box or FaceBox(0, 0, 0, 0) for one in here]
         for palm in self._palms.find(frame.image, part)[:MOST_CANDIDATES]:
-            region = hand_region(palm)
+            region = _wider(hand_region(palm))
             owner = owner_of(region, faces)
             if owner is None or any(_are_same(region, track.region) for track in self._tracks):
                 continue
             id = here[owner].id
             if sum(track.person == id for track in self._tracks) < MOST_EACH:
                 number = next(self._numbers)
-                self._tracks.append(HandTrack(number, region, id, -math.inf, frame.time))
+                self._tracks.append(
+                    HandTrack(number, region, id, -math.inf, frame.time, palm.points.copy())
+                )
 
     def _urgency(self, track: HandTrack) -> tuple[bool, float]:
         """Of a look: at what may be a hand first, then at who has waited longest."""
@@ -193,16 +213,15 @@ class HandTracker:
                 if not is_new:  # it moved away, and is near
                     self._searched = min(self._searched, frame.time - SEARCH_MOVING)
             else:
-                track.region = replace(track.region, side=WIDER * track.region.side)
+                track.region = _wider(track.region)
             return
         region = region_of_hand(fitted.landmarks)
         others = [other for other in self._tracks if other is not track]
         if any(_are_same(region, other.region) for other in others if other.hand is not None):
             self._tracks.remove(track)
             return
-        moved = math.hypot(region.x - track.region.x, region.y - track.region.y)
-        seen = replace(region, side=region.side + AHEAD * moved)
-        track.region, track.misses, track.found = seen, 0, frame.time
+        track.region, track.misses, track.found = region, 0, frame.time
+        track.places = fitted.landmarks[list(FOLLOWED), :2].copy()
         track.left = (
             fitted.left if is_new else (SIDES_KEPT * track.left + (1 - SIDES_KEPT) * fitted.left)
         )
@@ -261,6 +280,10 @@ def _described(
         to_side,
         up,
     )
+
+
+def _wider(region: Region) -> Region:
+    return replace(region, side=WIDER * region.side)
 
 
 def _is_resting(track: HandTrack) -> bool:
