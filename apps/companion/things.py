@@ -68,7 +68,7 @@ async def _find(context: TaskContext, companion: Companion, thing: str) -> None:
 
 @immediate
 def see(context: TaskContext) -> str:
-    """Say what someone points at, or else what is in sight."""
+    """Name the thing that someone points at, or else all in sight."""
     companion = Companion.of(context)
     if (thing := _pointed_at(companion)) is not None:
         return companion.words("sees_pointed", thing=thing.name)

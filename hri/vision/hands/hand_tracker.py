@@ -12,7 +12,7 @@ import itertools
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 
@@ -112,7 +112,7 @@ class HandTracker:
         self._time = frame.time
         self._saved = min(SAVED, self._saved + INCOME * elapsed)
         self._movement.see(frame.image, frame.time)
-        here = [person for person in people.persons if person.is_visible]
+        here = [person for person in people.persons if person.is_visible and _has_box(person)]
         self._keep({person.id for person in people.persons})
         self._follow(picture)
         if here and not is_late:
@@ -280,6 +280,12 @@ def _described(
         to_side,
         up,
     )
+
+
+def _has_box(person: Person) -> bool:
+    """Whether it is known where their face is."""
+    box = person.pose.box
+    return box is not None and all(map(math.isfinite, astuple(box)))
 
 
 def _wider(region: Region) -> Region:
