@@ -207,6 +207,8 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
     "not_learned": ("I couldn't see enough of your {thing}. Hold it closer, in better light.",),
     "sees": ("I see {things}.",),
     "sees_nothing": ("I don't see anything I know.",),
+    "waved": ("Hi there!",),
+    "sees_pointed": ("That's your {thing}.",),
     "sees_at": ("I see your {thing} {place}.",),
     "not_in_sight": ("I don't see your {thing} right now. Say: find my {thing}.",),
     "found": ("Here's your {thing}.",),

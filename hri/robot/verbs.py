@@ -172,9 +172,9 @@ async def ask(
 
     Without a grammar it is a yes/no question: a nod, a shake, a thumb up or down, "yes" and "no"
     are answers, and anything else that is heard changes the subject. Of several people, only the
-    one attended to answers with the head or a hand. With the name or path of a `grammar`, which is looked for in the app's
-    own folder first, that one is in force while the question is open, and the first thing heard is
-    the answer, also among other words (see `hri.speech.answering`). "Never mind" ends the question
+    one attended to answers with the head or a hand. With the name or path of a `grammar`, which is
+    looked for in the app's own folder first, that one is in force while the question is open, and
+    the first thing heard is the answer, also among other words (see `hri.speech.answering`). "Never mind" ends the question
     without an answer, "what did you say" has it said again; rules marked @interrupts of the
     grammars below, such as "stop", still count, and change the subject. `timeout` seconds count
     from the end of what the robot said last, and who speaks by then is heard out; it is asked again
@@ -203,8 +203,8 @@ async def ask_in_force(
 ) -> bool | Utterance | Ending:
     """Ask a question that the grammar in force answers; the answer, or why there is none.
 
-    A nod, a shake or a thumb answers one that `is_yes_or_no`. `questions` are what is asked, by tag, where
-    only that tag was unclear. Otherwise as `ask`.
+    A nod, a shake or a thumb answers one that `is_yes_or_no`. `questions` are what is asked, by
+    tag, where only that tag was unclear. Otherwise as `ask`.
     """
     grammar = context.behavior(Listener).loaded_grammar
     answer_of = _HeardAnswer(grammar, question, questions=questions)

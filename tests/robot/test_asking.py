@@ -1,5 +1,7 @@
 """Questions: who answers with the head, and what may be said while one with a grammar is open."""
 
+from functools import partial
+
 import pytest
 
 from hri.behavior.network import Network
@@ -47,10 +49,11 @@ def asked(tmp_path, monkeypatch):
 
         def respond(event):
             assert robot.context.behavior(PersonTracker).last.attended == NEAR
-            for number, (name, person) in enumerate(gestures, start=1):
+            for number, (gesture, person) in enumerate(gestures, start=1):
+                name, _, direction = gesture.partition(" ")
+                told = {"person": person} | ({"direction": direction} if direction else {})
                 robot.clock.call_at(
-                    event.time + 0.2 * number,
-                    lambda name=name, person=person: robot.events.raise_event(name, person=person),
+                    event.time + 0.2 * number, partial(robot.events.raise_event, name, **told)
                 )
 
         robot.events.subscribe("question.asked", respond)
@@ -63,6 +66,12 @@ def asked(tmp_path, monkeypatch):
 def test_only_the_one_attended_to_answers_with_the_head(asked):
     assert asked(("head.nodded", FAR), ("head.shaken", NEAR)) is False
     assert asked(("head.nodded", FAR)) is None
+
+
+def test_a_thumb_answers_as_a_nod_does(asked):
+    assert asked(("hand.thumb up", NEAR)) is True
+    assert asked(("hand.thumb down", NEAR)) is False
+    assert asked(("hand.thumb up", FAR), ("hand.thumb sideways", NEAR)) is None
 
 
 def test_a_head_that_is_not_told_apart_answers_too(asked):
