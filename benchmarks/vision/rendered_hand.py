@@ -72,8 +72,8 @@ class Placed:
     turn: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
     """Of a hand whose palm looks at the camera and whose fingers point up; x right, y down."""
     is_left: bool = True
-    skin: tuple[int, int, int] = (205, 155, 125)
-    sleeve: tuple[int, int, int] = (60, 70, 90)
+    skin: tuple[float, float, float] = (205, 155, 125)
+    sleeve: tuple[float, float, float] = (60, 70, 90)
     elbow: tuple[float, float] | None = None
     """Pixels; None draws no arm."""
     light: tuple[float, float, float] = (-0.4, -0.6, -0.7)
@@ -180,7 +180,8 @@ class HandMesh:
         def seen(points: Points) -> Points:
             there = (points * mirror) @ placed.turn.T
             near = away / (away + there[:, 2:])
-            return there[:, :2] * near * scale + (placed.x, placed.y)
+            spots: Points = there[:, :2] * near * scale + (placed.x, placed.y)
+            return spots
 
         spots, depth = seen(skin), ((skin * mirror) @ placed.turn.T)[:, 2]
         looks = (normals * mirror) @ placed.turn.T
@@ -231,7 +232,7 @@ def _paint(
     depth: Points,
     bright: Points,
     faces: NDArray[np.int64],
-    color: tuple[int, int, int],
+    color: tuple[float, float, float],
 ) -> None:
     """The far triangles first, finely, then averaged over the picture below."""
     height, width = image.shape[:2]

@@ -16,9 +16,11 @@ from hri.vision.camera_view import CameraView
 from hri.vision.detectors.hand_mesh import FittedHand, HandMesh, region_of_hand
 from hri.vision.detectors.mesh import Region
 from hri.vision.detectors.palm import FoundPalm, PalmDetector
+from hri.vision.engagement import Zones
 from hri.vision.face_models import FACE, HAND, PALM
 from hri.vision.hands.hand_tracker import INCOME, LOOK_COST, SAVED, SEARCH_COST, HandTracker
 from hri.vision.hands.reach import owner_of
+from hri.vision.tracking.people import Seeing
 from tests.recorded import picture
 from tests.vision.hands.test_hand_shape import drawn
 
@@ -238,6 +240,39 @@ def test_the_hand_in_a_portrait_is_found_and_fits(
     assert again.presence > 0.5
     assert 0.6 < again.landmarks[:, 0].mean() / width < 0.95
     assert 0.6 < again.landmarks[:, 1].mean() / height < 0.9
+
+
+def film() -> list[Frame]:
+    """A portrait with a hand, before which the camera trembles."""
+    whole = picture("obama")
+    step = max(1, whole.shape[0] // 600)
+    small = whole[::step, ::step]
+    frames = []
+    for number in range(40):
+        x, y = round(4 + 4 * math.sin(number)), round(4 + 4 * math.cos(2 * number))
+        shown = np.ascontiguousarray(small[y : y + small.shape[0] - 8, x : x + small.shape[1] - 8])
+        frames.append(Frame(shown, number / RATE, number))
+    return frames
+
+
+def seen_by(seeing: Seeing) -> list[tuple[float, int, str, bytes]]:
+    see = seeing()
+    shown = [see(frame) for frame in film()]
+    return [
+        (people.time, hand.number, hand.side, hand.landmarks.tobytes())
+        for people in shown
+        for one in people.persons
+        for hand in one.hands
+    ]
+
+
+def test_one_film_gives_the_same_hands_twice(
+    face_models: Path, networks: tuple[PalmDetector, HandMesh]
+) -> None:
+    seeing = Seeing("auto", CameraView(), Zones(), hands=True)
+    first = seen_by(seeing)
+    assert first
+    assert seen_by(seeing) == first
 
 
 @pytest.mark.parametrize("name", ["brick", "coffee", "rocket"])
