@@ -174,12 +174,12 @@ async def ask(
     are answers, and anything else that is heard changes the subject. Of several people, only the
     one attended to answers with the head or a hand. With the name or path of a `grammar`, which is
     looked for in the app's own folder first, that one is in force while the question is open, and
-    the first thing heard is the answer, also among other words (see `hri.speech.answering`).
-    "Never mind" ends the question without an answer, "what did you say" has it said again; rules
-    marked @interrupts of the grammars below, such as "stop", still count, and change the subject.
+    the first thing heard is the answer, also among other words (see `hri.speech.answering`). "Never
+    mind" ends the question without an answer, "what did you say" has it said again; rules marked
+    @interrupts of the grammars below, such as "stop", still count, and change the subject.
     `timeout` seconds count from the end of what the robot said last, and who speaks by then is
-    heard out; it is asked again up to `retries` times. When only a part of an answer was unclear, the next question is for that
-    ("Which milk?"), and the tags that were clear are kept.
+    heard out; it is asked again up to `retries` times. When only a part of an answer was unclear,
+    the next question is for that ("Which milk?"), and the tags that were clear are kept.
     Raises `question.asked` when it has been spoken, and then `question.answered` with the answer,
     `question.refused` after a "never mind", or `question.unanswered` when the time is over. Raises
     HriError for a grammar that cannot be used.
