@@ -131,7 +131,6 @@ def disagreement(found: FoundFace, landmarks: Landmarks) -> float:
 
 
 def is_in(region: Region, image: Image) -> bool:
->>>>>>> 50ea8edb (Hands: MediaPipe's networks of palms and hands run in OpenCV, followed at a modeled cost)
     """Whether a region is of a sensible size, with its middle in the picture."""
     height, width = image.shape[:2]
     numbers = (region.x, region.y, region.side, region.roll)

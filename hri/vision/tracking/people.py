@@ -46,6 +46,8 @@ SEARCH_NEWCOMERS = 0.4
 """The same else."""
 SEARCH_BOXES = 0.3
 """The same at most when there is no mesh to say where the faces are."""
+BUSY = 0.012
+"""Seconds of modeled work; no time is left for hands in a picture that took more."""
 SECOND_LOOK = 0.5
 """Seconds within which a face must be found again when there is no mesh to confirm it."""
 CLOSE, APART = 1.1, 1.4
@@ -112,9 +114,9 @@ class PeopleTracker:
         return self._described(sight)
 
     @property
-    def searched(self) -> float:
-        """Seconds, of the picture that was searched last."""
-        return self._searched
+    def work(self) -> float:
+        """Seconds of modeled work for the last picture."""
+        return self._plan.work
 
     def _forget(self) -> None:
         self._known: list[PersonTrack] = []
@@ -377,7 +379,7 @@ class Seeing:
 
         def see(frame: Frame) -> People:
             people = tracker.see(frame)
-            return hands.see(frame, people, is_late=tracker.searched == frame.time)
+            return hands.see(frame, people, is_late=tracker.work > BUSY)
 
         return see
 
