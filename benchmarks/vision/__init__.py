@@ -13,6 +13,7 @@ from benchmarks.vision import (
     objects,
     pose,
     recordings,
+    returning,
     videos,
 )
 from hri.bench.table import Parts
@@ -25,6 +26,7 @@ PARTS: Parts = {
     "pose": pose.rows,
     "crossing": lambda quick: crossing.rows(quick, WORKERS),
     "far faces": far_faces.rows,
+    "who comes back": returning.rows,
     "nods": lambda quick: nods.rows(quick, WORKERS),
     "objects": objects.rows,
     "colors": colors.rows,

@@ -9,8 +9,8 @@ import math
 from hri.vision.tracking.appearance import Look, blended, difference
 from hri.vision.tracking.face_track import FaceTrack
 
-STRANGER = 0.165
-"""A face that costs more is someone else."""
+STRANGER = 0.15
+"""A face that costs more is someone else: 2 of 100 of one person do, and 99 of 100 of another."""
 STRANGER_IN_CROWD = 0.28
 """The same for who may have been covered, and may be so in part."""
 PLACE_COST = 0.06
@@ -21,8 +21,9 @@ SIZE_COST = 0.06
 """Cost of a face of very different size; less when similar."""
 SIZE_REACH = 0.4
 """Logarithm of the ratio of sizes that is nowhere near."""
-PLACE_MEMORY = 1.5
-"""Seconds in which the weight of place and size falls to a third."""
+PLACE_MEMORY, RETURN_MEMORY = 1.5, 0.5
+"""Seconds in which the weight of place and size falls to a third: among those who cover each other,
+and of someone who was out of sight alone. Whoever comes where someone left may be anyone."""
 COASTING = 0.7
 """Seconds that someone out of sight is taken to walk on."""
 PACE_SMOOTHING = 0.25
@@ -74,12 +75,15 @@ class Identity:
         """Middle and size of it then, in pixels."""
         return *self.expected(time), self._breadth
 
-    def cost(self, time: float, face: FaceTrack, look: Look) -> float:
-        """How unlikely it is that this face is theirs; above STRANGER it is not."""
+    def cost(self, time: float, face: FaceTrack, look: Look, memory: float = PLACE_MEMORY) -> float:
+        """How unlikely it is that this face is theirs; above STRANGER it is not.
+
+        `memory`: seconds in which the weight of place and size falls to a third.
+        """
         unlike = math.inf if self._look is None else difference(self._look, look)
         if unlike == math.inf:
             unlike = UNKNOWN_LOOK
-        known = math.exp(-max(0.0, time - self._time) / PLACE_MEMORY)
+        known = math.exp(-max(0.0, time - self._time) / memory)
         return unlike + known * self.misfit(time, face)
 
     def misfit(self, time: float, face: FaceTrack) -> float:

@@ -27,13 +27,15 @@ from hri.vision.hands.hand_tracker import load_hand_tracker
 from hri.vision.tracking.appearance import Look, look_of
 from hri.vision.tracking.assignment import assigned
 from hri.vision.tracking.face_track import MAX_GAP, FaceTrack, Sight, is_face
-from hri.vision.tracking.identity import STRANGER, STRANGER_IN_CROWD
+from hri.vision.tracking.identity import RETURN_MEMORY, STRANGER, STRANGER_IN_CROWD
 from hri.vision.tracking.person_track import PersonTrack, number_of
 
 log = logging.getLogger("hri.vision")
 
 MEMORY = 3.0
-"""Seconds after which someone who is out of sight is given up."""
+"""Seconds after which someone who is out of sight has left."""
+KNOWN_FOR = 5.0
+"""Seconds for which they are known again when they come back."""
 MOST = 8
 """Faces that are followed at once."""
 MOST_FITS = 4
@@ -72,9 +74,10 @@ FRONTAL = math.radians(35)
 class PeopleTracker:
     """Sees frames one by one, in the order they were taken; the same frames give the same people.
 
-    People keep their id, "p1", "p2" ..., while they are seen and for `MEMORY` seconds after; ids
-    are not reused. Invalid pictures are ignored. When time goes back, there was no picture for
-    `MEMORY` seconds, or pictures change their size, everyone is new.
+    People keep their id, "p1", "p2" ..., while they are seen and for `MEMORY` seconds after, and
+    have it again when they come back within `KNOWN_FOR`; nobody else ever gets it. Invalid
+    pictures are ignored. When time goes back, there was no picture for `MEMORY` seconds, or
+    pictures change their size, everyone is new.
     """
 
     def __init__(
@@ -120,6 +123,8 @@ class PeopleTracker:
 
     def _forget(self) -> None:
         self._known: list[PersonTrack] = []
+        self._departed: list[PersonTrack] = []
+        """Who has left a moment ago."""
         self._mixed: set[frozenset[int]] = set()
         """Numbers of each two whose faces may have been mixed up."""
         self._candidates: list[tuple[float, FoundFace]] = []
@@ -237,7 +242,7 @@ class PeopleTracker:
 
     def _welcome(self, sight: Sight, faces: list[FaceTrack]) -> None:
         """Give each new face to whoever of the missing it fits, else to a new person."""
-        missing = [somebody for somebody in self._known if somebody.face is None]
+        missing = [somebody for somebody in self._known if somebody.face is None] + self._departed
         looks = [look_of(sight.image, face.region) for face in faces]
         costs = [
             [self._cost(sight.time, somebody, face, look) for somebody in missing]
@@ -250,6 +255,9 @@ class PeopleTracker:
                 self._known.append(somebody)
             else:
                 somebody = missing[index]
+                if somebody in self._departed:
+                    self._departed.remove(somebody)
+                    self._known = sorted([*self._known, somebody], key=lambda one: one.number)
             somebody.face, somebody.fitted = face, sight.time
 
     def _cost(self, time: float, somebody: PersonTrack, face: FaceTrack, look: Look) -> float:
@@ -261,9 +269,11 @@ class PeopleTracker:
         group = next((group for group in self._groups() if somebody in group), [])
         if group and any(_between(face, other) < APART for _, other in self._seen()):
             return somebody.identity.cost(time, face, look)
-        candidates = group or [somebody]
-        cost = min(candidate.identity.cost(time, face, look) for candidate in candidates)
-        return cost if cost < (STRANGER_IN_CROWD if group else STRANGER) else math.inf
+        if group:
+            cost = min(other.identity.cost(time, face, look) for other in group)
+            return cost if cost < STRANGER_IN_CROWD else math.inf
+        cost = somebody.identity.cost(time, face, look, RETURN_MEMORY)
+        return cost if cost < STRANGER else math.inf
 
     # --- telling apart ---
 
@@ -340,7 +350,9 @@ class PeopleTracker:
             if is_frontal and sight.time - somebody.learned >= LEARN_EVERY:
                 somebody.learned = sight.time
                 somebody.identity.learn(look_of(sight.image, face.region))
-        self._known = [s for s in self._known if sight.time - s.seen <= MEMORY]
+        gone = [s for s in self._known if sight.time - s.seen > MEMORY]
+        self._known = [s for s in self._known if s not in gone]
+        self._departed = [s for s in (*self._departed, *gone) if sight.time - s.seen <= KNOWN_FOR]
         left = {somebody.number for somebody in self._known}
         self._mixed = {pair for pair in self._mixed if pair <= left}
 

@@ -104,25 +104,38 @@ def test_directions_count_from_the_robot_whatever_way_the_camera_is_turned():
     assert other.elevation == pytest.approx(ahead.elevation + 0.2, abs=0.1)
 
 
-def test_who_comes_back_within_three_seconds_is_the_same_and_later_is_new():
-    for gone, expected in ((2.5, ["p1"]), (4.0, ["p2"])):
+def test_who_comes_back_within_five_seconds_is_the_same_and_later_is_new():
+    for gone, expected in ((2.5, ["p1"]), (4.5, ["p1"]), (5.5, ["p2"])):
         stage = Stage([Player(away_between(1.0, 1.0 + gone, standing()))])
-        seen = list(stage.watch(tracker(stage), 6.5))
+        seen = list(stage.watch(tracker(stage), 7.5))
         assert [p.id for p in seen[-1].persons] == expected
         missing = [p for p in seen if p.persons and not p.persons[0].is_visible]
         assert missing, "who is out of sight is still here"
         assert max(p.time for p in missing) < 1.0 + MEMORY + 0.1
 
 
-def test_somebody_else_who_comes_in_their_place_is_somebody_else():
+@pytest.mark.parametrize("back", [1.4, 2.0, 4.5])
+def test_somebody_else_who_comes_in_their_place_is_somebody_else(back):
     stage = Stage(
         [
             Player(until(1.0, standing()), **ANNA),
-            Player(away_between(0.0, 2.0, standing()), **BEN),
+            Player(away_between(0.0, back, standing()), **BEN),
         ]
     )
-    seen = list(stage.watch(tracker(stage), 3.0))
+    seen = list(stage.watch(tracker(stage), back + 1.0))
     assert [p.id for p in seen[-1].persons if p.is_visible] == ["p2"]
+
+
+def test_those_who_left_come_back_as_themselves_in_the_order_of_their_ids():
+    stage = Stage(
+        [
+            Player(away_between(1.0, 5.0, standing(90)), **ANNA),
+            Player(standing(220), **BEN),
+        ]
+    )
+    seen = list(stage.watch(tracker(stage), 6.0))
+    assert [p.id for p in seen[round(4.5 * 15)].persons] == ["p2"]
+    assert [p.id for p in seen[-1].persons] == ["p1", "p2"]
 
 
 def test_ids_do_not_shift_when_another_leaves():
