@@ -78,6 +78,11 @@ READERS: dict[str, Reader] = {
         _shipped("grammars/companion.jsgf", "docs/*/*/*.jsgf"),
         "grammars/a.jsgf",
     ),
+    "hand gestures": _named(
+        "hri.vision.hands.hand_patterns:load_hand_patterns",
+        _shipped("config/hands.toml"),
+        "h.toml",
+    ),
     "head gestures": _named(
         "hri.vision.gestures.gesture_patterns:load_patterns",
         _shipped("config/gestures.toml"),

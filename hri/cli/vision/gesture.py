@@ -27,7 +27,8 @@ from hri.core.signals import Frame, HeadGesture, Image
 from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
-from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, chosen, load_patterns
+from hri.vision.gestures.gesture_file import chosen
+from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, load_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 from hri.vision.pose_file import Remarks, read_poses
 

@@ -114,7 +114,8 @@ class Watcher:
         from hri.vision.camera_view import CameraView
         from hri.vision.detectors.detector_choice import load_detectors
         from hri.vision.gestures.gesture_behaviors import PeopleGestures
-        from hri.vision.gestures.gesture_patterns import ANSWERS, chosen, load_patterns
+        from hri.vision.gestures.gesture_file import chosen
+        from hri.vision.gestures.gesture_patterns import ANSWERS, load_patterns
         from hri.vision.tracking.people import PeopleTracker
 
         detectors = load_detectors(options.detector)

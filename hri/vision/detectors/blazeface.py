@@ -20,6 +20,7 @@ from hri.vision.detectors.face import FoundFace, Places, merged
 from hri.vision.detectors.opencv_network import OpenCvNetwork, Tensor
 from hri.vision.detectors.preprocessing import evened, is_picture
 from hri.vision.detectors.search_squares import Square, all_squares
+from hri.vision.detectors.ssd_anchors import ssd_anchors
 from hri.vision.face_models import DETECTOR, REMEDY
 
 SIDE = 128
@@ -46,7 +47,7 @@ class BlazeFace:
 
     def __init__(self, file: Path) -> None:
         self._network = OpenCvNetwork(file, DETECTOR.sha256, REMEDY)
-        self._anchors = _anchors()
+        self._anchors = ssd_anchors(GRIDS)
 
     def squares(self, width: int, height: int) -> list[Square]:
         """Those of all sizes, down to where a face of 20 pixels is found (of at most 800)."""
@@ -55,9 +56,9 @@ class BlazeFace:
         return [Square(one.left * step, one.top * step, one.side * step) for one in seen]
 
     def find(self, image: Image, squares: Sequence[Square] | None = None) -> list[FoundFace]:
-        """All faces in these squares, or in all of them, the surest first.
+        """The faces in these squares, or in all of them, the surest first.
 
-        None for an invalid picture.
+        An invalid picture has no faces.
         """
         if not is_picture(image):
             return []
@@ -150,15 +151,3 @@ def _scaled(face: FoundFace, scale: int) -> FoundFace:
         face.score,
         points,
     )
-
-
-def _anchors() -> Tensor:
-    """The middle of the cell of each proposal, shape [896, 2], 0 to 1."""
-    anchors: Sequence[tuple[float, float]] = [
-        ((x + 0.5) / cells, (y + 0.5) / cells)
-        for cells, proposals in GRIDS
-        for y in range(cells)
-        for x in range(cells)
-        for _ in range(proposals)
-    ]
-    return np.array(anchors, np.float32)

@@ -49,7 +49,7 @@ class FaceFinder(Protocol):
     def find(self, image: Image, squares: Sequence[Square] | None = None) -> list[FoundFace]:
         """The faces in these parts, or in all of them, the surest first.
 
-        None for what is not an 8-bit RGB picture.
+        What is not an 8-bit RGB picture has none.
         """
         ...
 

@@ -18,6 +18,7 @@ from hri.vision.detectors.face import Places, is_same
 from hri.vision.detectors.mesh import Region, is_in, upright
 from hri.vision.detectors.opencv_network import OpenCvNetwork, Tensor
 from hri.vision.detectors.preprocessing import evened, is_picture
+from hri.vision.detectors.ssd_anchors import ssd_anchors
 from hri.vision.face_models import PALM, REMEDY
 
 SIDE = 192
@@ -54,12 +55,12 @@ class PalmDetector:
 
     def __init__(self, file: Path) -> None:
         self._network = OpenCvNetwork(file, PALM.sha256, REMEDY)
-        self._anchors = _anchors()
+        self._anchors = ssd_anchors(GRIDS)
 
     def find(self, image: Image, part: Region) -> list[FoundPalm]:
         """The palms in an upright part, the surest first.
 
-        None for what is not a picture of 8 bits RGB, and in a part that is not in it.
+        There are none in what is not an 8-bit RGB picture, or in a part outside of it.
         """
         if not is_picture(image) or not is_in(part, image):
             return []
@@ -107,15 +108,3 @@ def _merged(found: list[FoundPalm]) -> list[FoundPalm]:
         if not any(is_same(palm.box, other.box) for other in palms):
             palms.append(palm)
     return palms
-
-
-def _anchors() -> Tensor:
-    """The middle of the cell of each proposal, shape [2016, 2], 0 to 1."""
-    middles = [
-        ((x + 0.5) / cells, (y + 0.5) / cells)
-        for cells, proposals in GRIDS
-        for y in range(cells)
-        for x in range(cells)
-        for _ in range(proposals)
-    ]
-    return np.array(middles, np.float32)

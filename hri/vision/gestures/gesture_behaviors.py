@@ -9,8 +9,9 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.signals import HeadGesture, HeadPose, People, Person, Pose2D
+from hri.vision.gestures.gesture_file import chosen
 from hri.vision.gestures.gesture_fusion import GestureFusion
-from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, chosen, load_patterns
+from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, load_patterns
 from hri.vision.tracking.egomotion import Egomotion, Steadied
 
 MOST = 16

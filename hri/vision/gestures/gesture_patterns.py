@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
 from hri.core import paths
-from hri.core.errors import HriError, did_you_mean
-from hri.core.toml import Table, load_toml
+from hri.core.errors import did_you_mean
+from hri.core.toml import Table
+from hri.vision.gestures.gesture_file import HEAD_GESTURE, chosen, read_gestures
 from hri.vision.gestures.oscillation import Swing
 from hri.vision.gestures.swing_score import FEATURES, SwingScore
 
@@ -29,7 +30,6 @@ WHEN = {"always": (False, True), "asked": (True,), "unasked": (False,)}
 """Whether a row counts without, or with, a question that waits for an answer."""
 HEAVIEST = 100.0
 """Most of a weight of a score, either way."""
-MOST_GESTURES = 50
 MOST_ROWS = 20
 
 
@@ -106,24 +106,7 @@ def load_patterns(path: Path | None = None) -> dict[str, Pattern]:
 
     Raises AuthoringError with the place of a mistake, HriError for a file that cannot be read.
     """
-    table = load_toml(path or paths.find("config", FILE), "file of head gestures")
-    names = table.keys()
-    if not 0 < len(names) <= MOST_GESTURES:
-        raise table.error(None, f"{len(names)} gestures", f"write 1 to {MOST_GESTURES}")
-    found = {name: _pattern(name, table.table(name)) for name in names}
-    table.finish()
-    return found
-
-
-def chosen(patterns: Mapping[str, Pattern], names: Iterable[str]) -> list[Pattern]:
-    """The patterns of these names. Raises HriError for an unknown name."""
-    found = []
-    for name in names:
-        if name not in patterns:
-            remedy = did_you_mean(name, patterns)
-            raise HriError(f'there is no head gesture "{name}" - {remedy}')
-        found.append(patterns[name])
-    return found
+    return read_gestures(path or paths.find("config", FILE), HEAD_GESTURE, _pattern)
 
 
 def answer_patterns() -> list[Pattern]:

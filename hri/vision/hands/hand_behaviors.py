@@ -9,8 +9,9 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.signals import Hand, HandGesture, People
+from hri.vision.gestures.gesture_file import HAND_GESTURE, chosen
 from hri.vision.hands.hand_gestures import PeopleHands
-from hri.vision.hands.hand_patterns import ANY, FILE, chosen_hands, load_hand_patterns
+from hri.vision.hands.hand_patterns import ANY, FILE, load_hand_patterns
 from hri.vision.hands.hand_shape import POINTING, THUMB
 
 MOST = 16
@@ -40,7 +41,7 @@ class HandGestures(Behavior):
         self._events = context.events
         known = load_hand_patterns(paths.find("config", self.patterns))
         names = known if self.gestures.strip() == ALL else self.gestures.split()
-        self._rows = {row.gesture: row for row in chosen_hands(known, names)}
+        self._rows = {row.gesture: row for row in chosen(known, names, HAND_GESTURE)}
         self._recognizer = PeopleHands(self._rows.values())
         self._unsent: deque[HandGesture] = deque(maxlen=MOST)
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from hri.core import paths
-from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Hand
-from hri.core.toml import Table, load_toml
+from hri.core.toml import Table
+from hri.vision.gestures.gesture_file import HAND_GESTURE, read_gestures
 from hri.vision.hands.hand_shape import POINTING, SHAPES, THUMB
 
 FILE = "hands.toml"
@@ -20,7 +19,6 @@ DIRECTIONS = {"up": 0.0, "down": math.pi, "any": None}
 LINES = {THUMB: (2, 4), POINTING: (5, 8)}
 """The points of a hand from which, and to which, a shape is directed."""
 USUAL_LINE = (0, 9)
-MOST_GESTURES = 50
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,24 +66,7 @@ def load_hand_patterns(path: Path | None = None) -> dict[str, HandPattern]:
 
     Raises AuthoringError with the place of a mistake, HriError for a file that cannot be read.
     """
-    table = load_toml(path or paths.find("config", FILE), "file of hand gestures")
-    names = table.keys()
-    if not 0 < len(names) <= MOST_GESTURES:
-        raise table.error(None, f"{len(names)} gestures", f"write 1 to {MOST_GESTURES}")
-    found = {name: _pattern(name, table.table(name)) for name in names}
-    table.finish()
-    return found
-
-
-def chosen_hands(patterns: Mapping[str, HandPattern], names: Iterable[str]) -> list[HandPattern]:
-    """The patterns of these names. Raises HriError for an unknown name."""
-    found = []
-    for name in names:
-        if name not in patterns:
-            remedy = did_you_mean(name, patterns)
-            raise HriError(f'there is no hand gesture "{name}" - {remedy}')
-        found.append(patterns[name])
-    return found
+    return read_gestures(path or paths.find("config", FILE), HAND_GESTURE, _pattern)
 
 
 def _pattern(name: str, table: Table) -> HandPattern:

@@ -1,9 +1,9 @@
 """The hands of the people who are seen: found now and then, and followed from look to look.
 
-A look at a hand costs more than all the rest of seeing, and to search for one twice that. So hands
-are looked at a few times a second, one in a picture: each picture brings some milliseconds, and
-what has been saved up pays for the next look. The costs are modeled, not measured, so that the same
-pictures give the same hands on every machine.
+A search for hands costs as much as all the rest of seeing, and a look at one hand nearly half of
+that. So hands are looked at a few times a second, one in a picture: each picture brings some
+milliseconds, and what has been saved up pays for the next look. The costs are modeled, not
+measured, so that the same pictures give the same hands on every machine.
 """
 
 from __future__ import annotations

@@ -6,7 +6,8 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import HeadPose
-from hri.vision.gestures.gesture_patterns import ANSWERS, chosen, load_patterns
+from hri.vision.gestures.gesture_file import chosen
+from hri.vision.gestures.gesture_patterns import ANSWERS, load_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 
 ROW = "swings = 3\nwidth_deg = 4\nswing_s = 0.5\n"

@@ -16,9 +16,10 @@ from hri.core.errors import AuthoringError, HriError
 from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Hand, HandGesture, HeadPose, People, Person
 from hri.hal.resource_manager import ResourceManager
+from hri.vision.gestures.gesture_file import HAND_GESTURE, chosen
 from hri.vision.hands.hand_behaviors import HandGestures
 from hri.vision.hands.hand_gestures import PeopleHands
-from hri.vision.hands.hand_patterns import chosen_hands, load_hand_patterns
+from hri.vision.hands.hand_patterns import load_hand_patterns
 from tests.vision.hands.test_hand_shape import hand
 
 RATE = 6.0
@@ -176,7 +177,7 @@ def test_a_mistake_in_the_file_has_a_place(tmp_path: Path, text: str, message: s
 
 def test_an_unknown_gesture_has_a_remedy() -> None:
     with pytest.raises(HriError, match="did you mean"):
-        chosen_hands(load_hand_patterns(), ["thumb_upp"])
+        chosen(load_hand_patterns(), ["thumb_upp"], HAND_GESTURE)
 
 
 class Script(Behavior):
