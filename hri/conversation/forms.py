@@ -35,6 +35,8 @@ from hri.core.toml import Table, load_toml
 from hri.speech.grammar import load_grammar
 from hri.speech.language import is_other_language
 
+FILE = "forms.toml"
+"""In the folder of an app or a skill."""
 NOTHING = ""
 """Value of a slot that is to stay empty."""
 CHANGE = "What should I change?"

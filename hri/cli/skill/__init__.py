@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 
-from hri.cli.skill import check, list, new, off, on, test
+from hri.cli.skill import check, list, new, test, turning
 
 COMMANDS = {
     "list": (list, "list the skills of an app, and which are on"),
     "new": (new, "create a skill that is plugged in at once"),
     "check": (check, "report mistakes, and sentences that other commands have or sound like"),
     "test": (test, "play the dialogues of a skill's page"),
-    "on": (on, "turn a skill on again"),
-    "off": (off, "turn a skill off"),
+    "on": (turning, "turn a skill on again"),
+    "off": (turning, "turn a skill off"),
 }
 """Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 EPILOG = "The page docs/skills.md makes one, step by step."

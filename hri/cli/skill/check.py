@@ -8,12 +8,15 @@ from pathlib import Path
 
 from hri.cli.skill.plugged import add_names, chosen, skills_of, with_named
 from hri.cli.terminal.progress_line import waiting
+from hri.conversation import forms
 from hri.core.clock import FakeClock
 from hri.core.quoting import report
 from hri.robot import Robot
 from hri.robot.skills import OffSkill
 from hri.speech.behaviors import Listener
-from hri.speech.grammar import Grammar, Parse, parse
+from hri.speech.grammar import Grammar, Parse, load_grammar, parse
+from hri.speech.grammar.lint import linter
+from hri.speech.grammar.lint.ambiguity import follow_others
 from hri.speech.grammar.lint.confusion import SoundAlike, sound_alikes
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.testing.dialogues import TYPED
@@ -44,8 +47,24 @@ def run(options: argparse.Namespace) -> int:
                 report(f"{one}: {skill.why}")
                 is_wrong = is_wrong or skill.is_broken
             else:
+                is_wrong |= _has_mistaken_answers(one, skill.folder)
                 is_wrong |= _has_conflict(one, skill.folder, grammar)
     return int(is_wrong)
+
+
+def _has_mistaken_answers(name: str, folder: Path) -> bool:
+    """Say what is wrong with the grammars of a skill's forms."""
+    file = folder / forms.FILE
+    found = forms.load_forms([file]).values() if file.exists() else ()
+    findings = [
+        one
+        for path in sorted({form.grammar for form in found})
+        for one in linter.check(load_grammar(path))
+        if one.severity in ("error", "warning")
+    ]
+    for one in findings:
+        report(f"{name}: {one}")
+    return any(one.severity == "error" for one in findings)
 
 
 def _has_conflict(name: str, folder: Path, grammar: Grammar) -> bool:
@@ -58,7 +77,7 @@ def _has_conflict(name: str, folder: Path, grammar: Grammar) -> bool:
         taken = list(_taken(grammar, own))
         alike = _alike(grammar, own)
     for sentence, rule, other in taken:
-        report(f'{name}: "{sentence}" counts as <{other}>, not as <{rule}> - say it another way')
+        report(f'{name}: "{sentence}" counts as {other}, not as <{rule}> - say it another way')
     for pair in alike[:MOST_TOLD]:
         first, second = pair.first, pair.second
         report(
@@ -79,12 +98,15 @@ def _is_in(folder: Path, grammar: Grammar, rule: str) -> bool:
 
 
 def _taken(grammar: Grammar, own: list[str]) -> Iterator[tuple[str, str, str]]:
-    """A sentence of each command that counts as another one, that command, and the other one."""
+    """A sentence of each command that counts as something else, that command, and what it is."""
     for rule in own:
         for sentence in grammar.sample(OWN, [rule]):
             found = parse(grammar, sentence)
-            if found is not None and found.rule != rule:
-                yield sentence, rule, found.rule
+            if found is None:
+                yield sentence, rule, "nothing, as it means two things"
+                break
+            if found.rule != rule and not follow_others(grammar, {rule, found.rule}):
+                yield sentence, rule, f"<{found.rule}>"
                 break
 
 

@@ -84,13 +84,13 @@ def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
         are_apart = len(rules) == 2 and (
             rules <= parts or any(len(rules & some) == 1 for some in (answers, after, typed))
         )
-        are_apart |= _follow_others(grammar, rules)
+        are_apart |= follow_others(grammar, rules)
         if not are_apart and not other.means_the_same(first, beside_slots=True):
             return Ambiguity(sentence, first, other)
     return None
 
 
-def _follow_others(grammar: Grammar, rules: set[str]) -> bool:
+def follow_others(grammar: Grammar, rules: set[str]) -> bool:
     """Whether rules are marked @after, and no two of them after the same command."""
     named = [name for key in rules for name in grammar.rules[key].after]
     are_marked = all(grammar.rules[key].after for key in rules)

@@ -1,4 +1,4 @@
-"""`hri skill on`: a skill counts again."""
+"""`hri skill on` and `hri skill off`: whether a skill counts."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     (name,) = chosen(plugged_in(options.app), [options.name])
-    turn(name, on=True)
-    report(f"{name} is on from the next start of the robot")
+    is_on = options.skill_command == "on"
+    turn(name, on=is_on)
+    undo = "" if is_on else f"; `hri skill on {name}` undoes that"
+    report(f"{name} is {options.skill_command} from the next start of the robot{undo}")
     return 0
