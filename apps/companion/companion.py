@@ -133,6 +133,7 @@ class Companion:
         self.heard: deque[str] = deque(maxlen=MOST_HEARD)
         """The rules that people said, the last one last."""
         self.last_voice = self.last_farewell = self.last_dialogue = self.last_tender = NEVER
+        self.last_spoke = NEVER
         self.talker = ""
         """The name of who talks; empty for a stranger."""
         self.is_wondering = False
@@ -142,6 +143,7 @@ class Companion:
         for name in ("question.refused", "question.unanswered"):
             context.events.subscribe(name, self._give_up)
         context.events.subscribe("question.*", self._note_dialogue)
+        context.events.subscribe("speech.finished", self._note_end)
         context.board.slot(SPEAKER).set(self, context.clock.now())
 
     def vocabulary(self) -> Vocabulary:
@@ -258,6 +260,9 @@ class Companion:
         self.is_wondering = self._is_own_question(str(event.properties.get("text", "")))
         if not self.is_wondering:
             self.last_dialogue = event.time
+
+    def _note_end(self, event: Event) -> None:
+        self.last_spoke = event.time
 
     def _is_own_question(self, text: str) -> bool:
         return text in [question.ask for question in self.replies.questions]
@@ -417,6 +422,7 @@ class Companion:
             is_seen=self.person() is not None,
             understood=self.last_contact,
             voice=self.last_voice,
+            spoke=self.last_spoke,
             puzzled=self.puzzlement.last,
             farewell=self.last_farewell,
             dialogue=self.last_dialogue,

@@ -74,6 +74,8 @@ class Scene:
     """When it last understood someone."""
     voice: float = NEVER
     """When a voice was last heard, also of sentences that were rejected."""
+    spoke: float = NEVER
+    """When it last finished saying something."""
     puzzled: float = NEVER
     """When it last did not understand a sentence that was meant for it."""
     farewell: float = NEVER
@@ -96,7 +98,7 @@ def is_night(hour: int, quiet_hours: tuple[int, int] = NIGHT) -> bool:
 
 def why_silent(scene: Scene, importance: Importance = Importance.CHAT) -> str:
     """Why the robot must not begin to speak; empty when it may."""
-    now, silence = scene.now, scene.now - max(scene.understood, scene.voice)
+    now, silence = scene.now, scene.now - max(scene.understood, scene.voice, scene.spoke)
     always = {
         "someone speaks": scene.is_voice_heard,
         "it speaks": scene.is_speaking,
