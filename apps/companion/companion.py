@@ -211,7 +211,7 @@ class Companion:
         if words and may_speak:
             self.talk.start(self._say_after, FLOOR_SECONDS if may_go_on else 0.0, words)
         if reply.form is not None and may_speak:
-            self.lessons.start(self._fill, reply, reply.form, tags)
+            self.lessons.start(self._fill, reply, reply.form, tags, self._typed())
         if rule not in ABOUT_THE_LAST:
             self._last = reply
         if rule in FAREWELLS:
@@ -223,11 +223,16 @@ class Companion:
         self.agreeing.start(self._agree, words)
         await verbs.say(context, words)
 
+    def _typed(self) -> str:
+        """The last sentence, where it was typed."""
+        heard = self.listener.last_utterance
+        return heard.text if heard is not None and heard.level_db is None else ""
+
     async def _fill(
-        self, context: TaskContext, reply: Reply, form: Form, tags: Mapping[str, Any]
+        self, context: TaskContext, reply: Reply, form: Form, tags: Mapping[str, Any], typed: str
     ) -> None:
         """Ask for what a form lacks, and act on it when all is there."""
-        values = await fill(context, form, tags)
+        values = await fill(context, form, tags, typed)
         if values is None:
             return
         if form.event:

@@ -6,6 +6,7 @@ from .alarms import (
     AlarmKind as AlarmKind,
     TooManyAlarms as TooManyAlarms,
     completed as completed,
+    is_day as is_day,
     length_words as length_words,
 )
 from .authored_event import read_event as read_event

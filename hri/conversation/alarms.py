@@ -206,6 +206,12 @@ def completed(value: Any, before: Any) -> Any:
     return " ".join(filter(None, (day, f"{clock}{half}" if clock else "")))
 
 
+def is_day(when: str) -> bool:
+    """Whether a tag of `grammars/when.jsgf` is a day without a time."""
+    found = _WHEN.fullmatch(when)
+    return found is not None and bool(found["day"]) and not found["clock"]
+
+
 def _half(clock: str, half: str) -> str:
     """The half of the day of a time, "?" for either."""
     return half or ("am" if int(clock[:2]) < 12 else "pm")

@@ -33,16 +33,20 @@ BREATH = 0.3
 """Seconds in which it begins to answer what else was said, and between looks at its voice."""
 
 
-async def fill(context: TaskContext, form: Form, known: Mapping[str, Any]) -> dict[str, Any] | None:
+async def fill(
+    context: TaskContext, form: Form, known: Mapping[str, Any], typed: str = ""
+) -> dict[str, Any] | None:
     """The slots of a form, as a person confirmed them; None where they did not.
 
-    `known` are tags of the sentence that began it. An answer may fill several slots, and may
+    `known` are tags of the sentence that began it; where that was `typed`, the words around its
+    command may fill slots as well. An answer may fill several slots, and may
     correct one that was filled; what was unclear is asked for alone. After a last no it says
     `refused`; the events of its questions show why else it was given up. Raises HriError for a
     grammar that cannot be used.
     """
     values, answers = form.taken(known), _Answers(form)
     async with answers_of(context, str(form.grammar), answers.prepared):
+        values = _with(values, answers.among(typed, values))
         for _ in range(form.most_turns):
             slot = form.next_slot(values)
             if slot is None and not form.confirm:
@@ -124,6 +128,11 @@ class _Answers:
             if change is None or (told := change.told(values)):
                 return None if change is None else told
         return self._of_rule(grammar, answer, values)
+
+    def among(self, text: str, values: Mapping[str, Any]) -> dict[str, Any]:
+        """The slots that a typed sentence fills beside these values."""
+        change = change_of(self._own, self._form, text, values) if self._own is not None else None
+        return {} if change is None else change.told(values)
 
     def _of_rule(
         self, grammar: Grammar, answer: Utterance, values: Mapping[str, Any]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import replace
 from itertools import islice
@@ -10,8 +11,16 @@ from hri.conversation.examples import different
 from hri.conversation.forms import NOTHING, Form
 from hri.core import paths
 from hri.robot.verbs import in_words
-from hri.speech.answering import AFTER, BEFORE, CANCEL, CORRECTING, answering
+from hri.speech.answering import (
+    AFTER,
+    BEFORE,
+    CANCEL,
+    CANCEL_AMONG,
+    CORRECTING,
+    answering,
+)
 from hri.speech.grammar import Grammar, Parse, Rule, load_grammar, parse
+from hri.speech.grammar.analysis import reachable
 from hri.speech.grammar.doc_comments import DocTag
 from hri.speech.grammar.expressions import (
     Alternative,
@@ -23,6 +32,7 @@ from hri.speech.grammar.expressions import (
     Sequence as Row,
     Tagged,
     Token,
+    mapped,
 )
 from hri.speech.grammar.framing import framed
 from hri.speech.grammar.merging import with_parts_of
@@ -56,12 +66,17 @@ WITHOUT = ("no", "without", "without any", "leave out the", "skip the", "hold th
 """What may be said before the name of a slot that is left empty."""
 ADDING = ("add", "and also", "also", "plus", "and add", "and", "put on", "with extra")
 """What may be said before another value of a slot that may have several."""
-TAKING_AWAY = ("no", "not", "without", "no more", "take off", "leave out", "remove", "hold", "skip")
+TAKING_AWAY = (
+    *("no", "not", "without", "no more", "take off", "leave off", "leave out", "remove", "hold"),
+    *("skip", "drop", "lose", "forget", "get rid of"),
+)
 """What may be said before a value that is taken away; "no olives" may also be "no, olives"."""
 EVERYTHING = ("everything", "all of them", "all of it", "all of those", "one of each", "the lot")
 """What may be said for all values of a slot that may have several."""
 TOO = ("too", "as well", "also")
 """What may be said behind a value that is added."""
+PLURAL = re.compile(r"[a-z]{2,}[^s'u]s")
+"""Words that people also say without their last letter: "olives", of which a pizza may have one."""
 MOST_LOOKED_AT = 20
 """Sentences of a rule that show whether its slot has several values, and which."""
 MOST_BEFORE, MOST_BETWEEN, MOST_BEHIND = 8, 8, 8
@@ -78,20 +93,22 @@ def form_grammar(form: Form, grammar: Grammar) -> Grammar:
     rules = dict(found.rules)
     for key in (YES, NO):
         rules[key] = replace(rules[key], is_public=True)
+    listed = [key for key in grammar.public_rules if _is_listed(form, grammar, key)]
+    for key in reachable(rules, listed):
+        rules[key] = replace(rules[key], expression=_in_singular(rules[key].expression))
     asked = answering(replace(found, rules=rules), NAMED)
     if CANCEL not in asked.rules:  # another language
         return asked
     own = {key: asked.rules[key] for key in grammar.public_rules}
     words = _Words(next(iter(own.values())))
     made = {EMPTY: words.empty(form), SLOT: words.slot()}
-    listed = [key for key in own if words.is_listed(form, grammar, key)]
     made |= {NAMES: words.names(form), NAMED: words.named(), ALL: words.all(form, grammar, listed)}
     made |= {SEVERAL: words.several((*own, EMPTY, ALL))}
     made |= {AGREED: words.answer(YES), REFUSED: words.answer(NO)}
     before = {MORE: words.items(MORE, ADDING, listed), LESS: words.items(LESS, TAKING_AWAY, listed)}
     # "Never mind" is also a no, to a question of yes or no alone, and "nothing" empties no slot
     # by its name.
-    first = {key: asked.rules[key] for key in (CANCEL, NO)}
+    first = {key: asked.rules[key] for key in (CANCEL, CANCEL_AMONG, NO)}
     return replace(asked, rules={**before, **own, **first, **made, **asked.rules, **made})
 
 
@@ -99,6 +116,26 @@ def _shown(grammar: Grammar, key: str) -> list[Parse]:
     """Sentences of a rule, as they are understood; MOST_LOOKED_AT where it has more."""
     texts = islice(different(grammar, key), MOST_LOOKED_AT)
     return [found for text in texts if (found := parse(grammar, text, {key}))]
+
+
+def _is_listed(form: Form, grammar: Grammar, key: str) -> bool:
+    """Whether a rule gives values of one slot alone, which may have several."""
+    tags = [form.taken(found.tags) for found in _shown(grammar, key)]
+    names = {name for told in tags for name in told}
+    return len(names) == 1 and all(
+        isinstance(told.get(name), tuple) for told in tags for name in names
+    )
+
+
+def _in_singular(node: Expression) -> Expression:
+    """The same with "olive" beside "olives"."""
+    return mapped(node, Token, _with_singular)
+
+
+def _with_singular(word: Token) -> Expression:
+    if not PLURAL.fullmatch(word.text):
+        return word
+    return Alternative((word, replace(word, text=word.text[:-1])), (1.0, 1.0), word.span)
 
 
 class _Words:
@@ -136,14 +173,6 @@ class _Words:
                 choices.append(self._tagged(self._any_of(said), slot.name, NOTHING))
         expression = framed(self._either(choices), self._to(BEFORE), self._to(AFTER))
         return self._rule(EMPTY, expression, is_public=bool(choices))
-
-    def is_listed(self, form: Form, grammar: Grammar, key: str) -> bool:
-        """Whether a rule gives values of one slot alone, which may have several."""
-        tags = [form.taken(found.tags) for found in _shown(grammar, key)]
-        names = {name for told in tags for name in told}
-        return len(names) == 1 and all(
-            isinstance(told.get(name), tuple) for told in tags for name in names
-        )
 
     def all(self, form: Form, grammar: Grammar, listed: Iterable[str]) -> Rule:
         """What gives a slot all values, where they are few."""

@@ -24,11 +24,29 @@ LONGEST_ANSWER = 10
 """Words of an answer that stands among others."""
 LONGEST_REPAIR = 4
 """Words that stand for a part of the answer before them."""
-LEADING = frozenset(("with", "on", "at", "for", "the", "a", "an", "any", "some"))
+LEADING = frozenset(
+    (
+        "with",
+        "on",
+        "at",
+        "for",
+        "the",
+        "a",
+        "an",
+        "any",
+        "some",
+        "yucky",
+        "nasty",
+        "gross",
+        "stinky",
+    )
+)
 """Words that may stand between one of the signs below and an answer."""
 HESITATIONS = frozenset(("um", "uh", "er", "hm", "hmm", "oh", "ah", "well", "okay", "ok", "so"))
 NEGATING = frozenset(("no", "not", "don't", "without", "never", "except", "isn't"))
 """One of these among the words that say nothing else leaves open what is wanted."""
+NEAR = 4
+"""Words before an answer within which it does, as in "I don't eat so much, a small one" not."""
 LIMITING = frozenset(("but", "wait", "actually", "only", "or"))
 """One of these behind a yes leaves open whether it is one."""
 EDITING = (
@@ -56,18 +74,25 @@ class Use(Enum):
 
 
 SIGNS: Mapping[Use, tuple[str, ...]] = {
-    Use.ADDED: ("add", "also", "and also", "plus", "put on", "extra", "even"),
+    Use.ADDED: (
+        *("add", "also", "and also", "plus", "extra", "even", "don't forget"),
+        *("put", "put on", "throw on", "throw in"),
+    ),
     Use.REPAIRED: ("or rather", "just", "only"),
     Use.UNWANTED: (
         *("not", "instead of", "rather than", "without", "except", "but no", "but not", "no more"),
-        *("don't want", "don't like", "take off", "leave out", "hold", "skip", "remove"),
+        *("don't want", "don't like", "take off", "leave off", "leave out", "hold", "skip"),
+        *("remove", "drop", "lose", "ditch", "forget", "get rid of", "minus", "no need for"),
+        *("hate", "hates", "doesn't like", "can't have", "can't stand", "allergic to"),
     ),
     Use.DENIED: ("no", "nope"),
     Use.OFFERED: ("or", "or maybe"),
 }
 """What may be said right before an answer."""
 TOO = ("too", "as well", "also", "on top")
-"""What may be said right behind one that is added."""
+"""What may be said behind one that is added."""
+OFF = ("off", "out", "away")
+"""What may be said behind one that is taken away."""
 CONTRAST = ("but", "just", "only")
 """Words between "no bacon" and what is wanted instead."""
 
@@ -80,7 +105,8 @@ def _any_of(texts: Sequence[str], where: str) -> re.Pattern[str]:
 _EDITING = _any_of(EDITING, r"(?<!\S)(?:{})(?!\S)")
 _HARMLESS = _any_of(HARMLESS, r"(?<!\S)(?:{})(?!\S)")
 _SIGNS = {use: _any_of(signs, r"(?:^|(?<= ))(?:{})$") for use, signs in SIGNS.items()}
-_TOO = _any_of(TOO, r"^(?:{})(?!\S)")
+_TOO = _any_of(TOO, r"^(?:(?:on|to|in|with) (?:it|that|them|there) )?(?:{})(?!\S)")
+_OFF = _any_of(OFF, r"^(?:(?:so )?(?:leave|take|keep) (?:it|that|them|those) )?(?:{})(?!\S)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,11 +183,11 @@ def change_of(own: Grammar, form: Form, text: str, values: Mapping[str, Any]) ->
         before, behind, tags = words[start:begin], words[end:], form.taken(found.tags)
         if tags.keys() != names or not _goes_on(before, use):
             use, rest = _use(before, is_first=not last)
-            if not NEGATING.isdisjoint(rest):
+            if not NEGATING.isdisjoint(rest[-NEAR:]):
                 return None
         if use in (Use.REPAIRED, Use.DENIED) and found.rule != rule:
             tags = _repaired(own, form, last, words[begin:end]) or tags
-        draft.take(Use.ADDED if _TOO.match(" ".join(behind)) else use, tags, behind)
+        draft.take(_use_by_end(" ".join(behind)) or use, tags, behind)
         start, last, rule, names = end, words[begin:end], found.rule, {*tags}
     if not last:
         return Change()
@@ -215,6 +241,13 @@ def _use(before: Sequence[str], is_first: bool) -> tuple[Use, list[str]]:
         is_added = is_first and HESITATIONS.issuperset(rest[:-1])
         return Use.ADDED if is_added else Use.SAID, rest
     return Use.REPAIRED if len(rest) < len(core) else Use.SAID, rest
+
+
+def _use_by_end(behind: str) -> Use | None:
+    """What an answer is named for where the words behind it say so: "take the olives off"."""
+    if _TOO.match(behind):
+        return Use.ADDED
+    return Use.UNWANTED if _OFF.match(behind) else None
 
 
 def _repaired(

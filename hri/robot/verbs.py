@@ -18,7 +18,7 @@ from hri.emotion.appraisal import OccEvent
 from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Brush, Face, FaceRenderer
 from hri.face.model import FaceModel, load_face
-from hri.speech.answering import AGAIN, CANCEL, NONE, answering
+from hri.speech.answering import AGAIN, REFUSING, answering
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import Grammar, parse
 from hri.speech.grammar.slot_values import values_of
@@ -406,7 +406,7 @@ class _HeardAnswer:
         heard = listener.last_utterance
         if event.name != "speech.heard" or heard is None:
             return None
-        if heard.rule in (CANCEL, NONE):
+        if heard.rule in REFUSING:
             return _Refusal()
         if heard.rule == AGAIN:
             return _Again(self._asked, self, retries=0)

@@ -13,6 +13,7 @@ from hri.speech.grammar import Grammar
 from hri.speech.grammar.doc_comments import ANY_COMMAND
 from hri.speech.grammar.follow_ups import out_of_place, resolved
 from hri.speech.grammar.matching import Parse, departure, meanings, parse
+from hri.speech.grammar.tags import are_same
 from hri.speech.grammar.words import ANY, listed
 from hri.speech.slot_confidence import REST, slot_confidences
 from hri.speech.turn import Turn
@@ -191,6 +192,8 @@ def _as_specific(
     for other in meanings(grammar, found.as_typed, answers if is_answer else rules):
         if is_filled and grammar.rules[other.rule].topics:
             continue
+        if is_answer and found.tags and are_same(found.tags, other.tags):
+            continue  # "In Tuesday" is one answer, by whichever rule.
         if not resolved(grammar, other, turn.last).means_the_same(found):
             yield Alternative(_command(grammar, other), 1.0)
 

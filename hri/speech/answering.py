@@ -26,8 +26,9 @@ from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 
 SHARED = "asking.jsgf"
 """The grammar with what every question lets people say, which is English."""
-CANCEL, NONE, AGAIN = "asking.cancel", "asking.none", "asking.again"
-"""Rules of what does not answer."""
+CANCEL, CANCEL_AMONG, AGAIN = "asking.cancel", "asking.cancel_among", "asking.again"
+REFUSING = (CANCEL, CANCEL_AMONG, "asking.none")
+"""Rules of what ends the question without an answer."""
 BEFORE, AFTER = "asking.before", "asking.after"
 """Rules of what may be said around an answer."""
 CORRECTING = "asking.correcting"
@@ -54,7 +55,7 @@ def answering(grammar: Grammar, before: str = BEFORE) -> Grammar:
     for key in grammar.public_rules:
         is_exact = sounds[key] < FEWEST_PHONES or not EXACT.isdisjoint(rules[key].marks)
         rules[key] = _as_answer(rules[key], before, is_exact)
-    for key in (CANCEL, NONE, AGAIN):
+    for key in (*REFUSING, AGAIN):
         rules[key] = replace(rules[key], is_public=True)
     return replace(found, rules=rules)
 

@@ -57,6 +57,12 @@ def test_a_nod_confirms_and_a_shake_does_not(filled):
     assert filled([("head.shaken", {})], known)[0] is None
 
 
+def test_one_answer_by_two_rules_is_clear(filled):
+    found, asked = filled(["in olives", "yes"], {"size": "small"})
+    assert found == {"size": "small", "toppings": ("olives",)}
+    assert len(asked) == 2
+
+
 def test_what_was_unclear_is_asked_for_by_the_question_of_its_slot(filled):
     values, asked = filled([unsure("small", "size"), "large", "olives", "yes"], {})
     assert values == {"size": "large", "toppings": ("olives",)}

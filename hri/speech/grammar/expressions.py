@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from operator import is_
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from hri.speech.grammar.tags import TagEntry, spell_entries
 from hri.speech.grammar.words import ANY, MOST_FREE, MOST_SPOKEN
@@ -116,6 +116,9 @@ class Tagged:
 Expression = Token | Anything | RuleReference | Sequence | Alternative | Optional | Repeat | Tagged
 
 
+N = TypeVar("N", Token, RuleReference)
+
+
 def children(node: Expression) -> tuple[Expression, ...]:
     """The nodes directly below."""
     match node:
@@ -154,29 +157,36 @@ def heard_choices(node: Alternative) -> tuple[Expression, ...]:
     )
 
 
-def rename(node: Expression, resolve: Callable[[RuleReference], Expression]) -> Expression:
-    """The same tree with something else for its references; what stays the same is shared."""
+def mapped(node: Expression, kind: type[N], change: Callable[[N], Expression]) -> Expression:
+    """The same tree with something else for its references, or for its words.
+
+    What stays the same is shared.
+    """
+    if isinstance(node, kind):
+        return change(node)
     match node:
-        case RuleReference():
-            return resolve(node)
         case Sequence(items=items):
-            renamed = _rename_all(items, resolve)
-            return node if renamed is items else replace(node, items=renamed)
+            changed = _mapped_all(items, kind, change)
+            return node if changed is items else replace(node, items=changed)
         case Alternative(choices=choices):
-            renamed = _rename_all(choices, resolve)
-            return node if renamed is choices else replace(node, choices=renamed)
+            changed = _mapped_all(choices, kind, change)
+            return node if changed is choices else replace(node, choices=changed)
         case Optional(item=item) | Repeat(item=item) | Tagged(item=item):
-            inside = rename(item, resolve)
+            inside = mapped(item, kind, change)
             return node if inside is item else replace(node, item=inside)
         case _:
             return node
 
 
-def _rename_all(
-    nodes: tuple[Expression, ...], resolve: Callable[[RuleReference], Expression]
+def _mapped_all(
+    nodes: tuple[Expression, ...], kind: type[N], change: Callable[[N], Expression]
 ) -> tuple[Expression, ...]:
-    renamed = [node if type(node) is Token else rename(node, resolve) for node in nodes]
-    return nodes if all(map(is_, renamed, nodes)) else tuple(renamed)
+    are_words_kept = kind is not Token
+    changed = [
+        node if are_words_kept and type(node) is Token else mapped(node, kind, change)
+        for node in nodes
+    ]
+    return nodes if all(map(is_, changed, nodes)) else tuple(changed)
 
 
 def spell(node: Expression) -> str:

@@ -20,7 +20,7 @@ from hri.speech.grammar.expressions import (
     Sequence,
     SourceSpan,
     Token,
-    rename,
+    mapped,
     spell,
 )
 from hri.speech.grammar.fold import Fold
@@ -198,7 +198,9 @@ def flat_jsgf(grammar: Grammar, rules: Collection[str]) -> str:
     for key in keys:
         kept = said[key]
         if kept is not None:
-            expression = rename(kept, lambda node: replace(node, name=names[node.name]))
+            expression = mapped(
+                kept, RuleReference, lambda node: replace(node, name=names[node.name])
+            )
             lines.append(f"<{names[key]}> = {spell(expression)};")
     return "\n".join(lines) + "\n"
 

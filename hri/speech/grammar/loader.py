@@ -38,7 +38,7 @@ from hri.speech.grammar.expressions import (
     Expression,
     RuleReference,
     SourceSpan,
-    rename,
+    mapped,
     walk,
 )
 from hri.speech.grammar.framing import framed
@@ -161,7 +161,9 @@ class _Meaning(NamedTuple):
 
         return Rule(
             key=self.key,
-            expression=rename(framed(definition.expression, self.before, self.after), resolved),
+            expression=mapped(
+                framed(definition.expression, self.before, self.after), RuleReference, resolved
+            ),
             is_public=self.is_public,
             span=definition.span,
             path=path,
@@ -430,7 +432,7 @@ class _Loader:
             name = rule.key.removeprefix(file.prefix)
             line = first.span.line
             self._report(
-                file, span, f"<{name}> is already defined in line {line}", "rename one of the two"
+                file, span, f"<{name}> is already defined in line {line}", "mapped one of the two"
             )
 
     def _list_rule(self, file: _File, use: NameListImport) -> Rule | None:

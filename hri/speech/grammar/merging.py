@@ -6,7 +6,7 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from hri.speech.grammar import analysis
-from hri.speech.grammar.expressions import Alternative, RuleReference, rename
+from hri.speech.grammar.expressions import Alternative, RuleReference, mapped
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.rules import Rule, Rules
 
@@ -85,7 +85,11 @@ def _renamed(rules: dict[str, Rule], names: dict[str, str]) -> dict[str, Rule]:
         return replace(node, name=names[node.name]) if node.name in names else node
 
     renamed = [
-        replace(rule, key=names.get(key, key), expression=rename(rule.expression, resolve))
+        replace(
+            rule,
+            key=names.get(key, key),
+            expression=mapped(rule.expression, RuleReference, resolve),
+        )
         for key, rule in rules.items()
     ]
     return {rule.key: rule for rule in renamed}
