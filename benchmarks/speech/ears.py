@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from functools import cache
+from collections.abc import Callable, Sequence
+from functools import cache, partial
 
 from benchmarks.progress import progress
 from hri.bench.speech.flite_voices import RATE
@@ -18,12 +18,15 @@ from hri.core.signals import Rejection, Utterance
 from hri.hal.recognizer import Recognizer, Segment
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.robot import Robot
 from hri.speech import hearing, understanding
 from hri.speech.acceptance import STRICTNESS
+from hri.speech.behaviors import Listener
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.recognizers.automatic import AutomaticRecognizer
 from hri.speech.recognizers.typed import LineDecoder
 from hri.speech.turn import Turn
+from hri.testing.dialogues import TYPED
 
 NAME = "Robin"
 BATCH = 40
@@ -36,6 +39,13 @@ def companion() -> Grammar:
     return load_grammar(paths.find("grammars", "companion")).called(NAME)
 
 
+@cache
+def with_skills() -> Grammar:
+    """The same with the commands of all its skills."""
+    robot = Robot("companion", "simulated", clock=FakeClock(), devices=TYPED)
+    return robot.context.behavior(Listener).read_grammar().called(NAME)
+
+
 def typed(line: str, turn: Turn) -> Heard:
     """What a typed line is."""
     segment = Segment(0.0, 0.0, text=line)
@@ -43,30 +53,36 @@ def typed(line: str, turn: Turn) -> Heard:
     return _told(understanding.understand(decoder, companion(), segment, STRICTNESS, turn))
 
 
-def heard(clips: Sequence[Clip], turn: Turn, what: str) -> list[Outcome]:
+def heard(
+    clips: Sequence[Clip], turn: Turn, what: str, grammar: Callable[[], Grammar] = companion
+) -> list[Outcome]:
     """What the default engine makes of clips, in as many processes as there are cores."""
     batches = [clips[start : start + BATCH] for start in range(0, len(clips), BATCH)]
     cores = os.cpu_count() or 1
     with variables(**ONE_CORE), worker_pool(cores) as pool:
-        done = progress(pool.map(hear_all, batches, [turn] * len(batches)), len(batches), what)
+        hear = partial(hear_all, turn=turn, grammar=grammar)
+        done = progress(pool.map(hear, batches), len(batches), what)
         pieces = [one for batch in done for one in batch]
     return [Outcome(clip, made) for clip, made in zip(clips, pieces, strict=True)]
 
 
-def hear_all(clips: Sequence[Clip], turn: Turn) -> list[list[Heard]]:
+def hear_all(
+    clips: Sequence[Clip], turn: Turn, grammar: Callable[[], Grammar] = companion
+) -> list[list[Heard]]:
     """What it makes of the pieces of speech of each clip, in this process."""
+    engine, known = _engine(grammar), grammar()
     return [
-        [_told(one) for one in hearing.hear(clip.samples, RATE, _engine(), companion(), turn=turn)]
+        [_told(one) for one in hearing.hear(clip.samples, RATE, engine, known, turn=turn)]
         for clip in clips
     ]
 
 
 @cache
-def _engine() -> Recognizer:
+def _engine(grammar: Callable[[], Grammar]) -> Recognizer:
     resources = ResourceManager((), FakeClock())
     engine = AutomaticRecognizer(Description("recognizer", "Hri.Recognizer"), resources)
     engine.activate()
-    engine.start(companion())
+    engine.start(grammar())
     return engine
 
 
