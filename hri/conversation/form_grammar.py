@@ -54,6 +54,8 @@ MORE, LESS = "form.more", "form.less"
 """The rules of what adds to a slot of several values, and takes away: "add bacon", "no olives"."""
 SEVERAL = "form.several"
 """The rule of answers among other words, which are typed: "a small one dear with olives please"."""
+FILLS = "fills"
+"""The mark of rules that answer by their tags."""
 NAMES = "form.names"
 """The part that names a slot."""
 NAMED = "form.named"
@@ -93,6 +95,8 @@ def form_grammar(form: Form, grammar: Grammar) -> Grammar:
     rules = dict(found.rules)
     for key in (YES, NO):
         rules[key] = replace(rules[key], is_public=True)
+    for key in grammar.public_rules:
+        rules[key] = _marked(rules[key], FILLS)
     listed = [key for key in grammar.public_rules if _is_listed(form, grammar, key)]
     for key in reachable(rules, listed):
         rules[key] = replace(rules[key], expression=_in_singular(rules[key].expression))
@@ -116,6 +120,10 @@ def _shown(grammar: Grammar, key: str) -> list[Parse]:
     """Sentences of a rule, as they are understood; MOST_LOOKED_AT where it has more."""
     texts = islice(different(grammar, key), MOST_LOOKED_AT)
     return [found for text in texts if (found := parse(grammar, text, {key}))]
+
+
+def _marked(rule: Rule, mark: str) -> Rule:
+    return replace(rule, doc_tags=(*rule.doc_tags, DocTag(mark, "", rule.span)))
 
 
 def _is_listed(form: Form, grammar: Grammar, key: str) -> bool:
@@ -209,11 +217,11 @@ class _Words:
             for most in (MOST_BEFORE, MOST_BETWEEN, MOST_BEHIND)
         )
         more = Repeat(Row((between, item), self._span), 0, self._span)
-        return self._typed(SEVERAL, Row((before, item, more, behind), self._span))
+        row = Row((before, item, more, behind), self._span)
+        return _marked(self._typed(SEVERAL, row), FILLS)
 
     def _typed(self, key: str, expression: Expression) -> Rule:
-        rule = self._rule(key, expression)
-        return replace(rule, doc_tags=(DocTag("typed", "", self._span),))
+        return _marked(self._rule(key, expression), "typed")
 
     def _rule(self, key: str, expression: Expression, is_public: bool = True) -> Rule:
         return replace(self._like, key=key, expression=expression, is_public=is_public, doc_tags=())

@@ -187,12 +187,12 @@ def _as_specific(
     if found is None or not found.free:
         return
     is_filled = bool(found.slots) and not found.around and not grammar.rules[found.rule].topics
-    answers = grammar.marked("answer")
+    answers, fills = grammar.marked("answer"), grammar.marked("fills")
     is_answer = turn.is_question_open and found.rule in answers
     for other in meanings(grammar, found.as_typed, answers if is_answer else rules):
         if is_filled and grammar.rules[other.rule].topics:
             continue
-        if is_answer and found.tags and are_same(found.tags, other.tags):
+        if {found.rule, other.rule} <= fills and are_same(found.tags, other.tags):
             continue  # "In Tuesday" is one answer, by whichever rule.
         if not resolved(grammar, other, turn.last).means_the_same(found):
             yield Alternative(_command(grammar, other), 1.0)
