@@ -1,4 +1,4 @@
-"""Faces by BlazeFace short range, MediaPipe's detector for faces near the camera, in OpenCV.
+"""Faces by BlazeFace short range, MediaPipe's detector for faces near the camera.
 
 Bazarevsky et al., "BlazeFace: sub-millisecond neural face detection on mobile GPUs" (2019).
 
@@ -17,7 +17,7 @@ import numpy as np
 
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, Places, merged
-from hri.vision.detectors.opencv_network import OpenCvNetwork, Tensor
+from hri.vision.detectors.network import Tensor, load_network
 from hri.vision.detectors.preprocessing import evened, is_picture
 from hri.vision.detectors.search_squares import Square, all_squares
 from hri.vision.detectors.ssd_anchors import ssd_anchors
@@ -46,7 +46,7 @@ class BlazeFace:
     """
 
     def __init__(self, file: Path) -> None:
-        self._network = OpenCvNetwork(file, DETECTOR.sha256, REMEDY)
+        self._network = load_network(file, DETECTOR.sha256, REMEDY)
         self._anchors = ssd_anchors(GRIDS)
 
     def squares(self, width: int, height: int) -> list[Square]:

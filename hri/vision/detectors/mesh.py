@@ -1,4 +1,4 @@
-"""A mesh of 468 points fitted to a face, by MediaPipe's face landmark network in OpenCV.
+"""A mesh of 468 points fitted to a face, by MediaPipe's face landmark network.
 
 Kartynnik et al., "Real-time facial surface geometry from monocular video on mobile GPUs" (2019).
 """
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hri.core.signals import Image, Landmarks
 from hri.vision.detectors.face import FoundFace
-from hri.vision.detectors.opencv_network import OpenCvNetwork
+from hri.vision.detectors.network import load_network
 from hri.vision.detectors.preprocessing import darkness, evened, is_picture
 from hri.vision.face_models import MESH, REMEDY
 
@@ -70,7 +70,7 @@ class FaceMesh:
     """
 
     def __init__(self, file: Path) -> None:
-        self._network = OpenCvNetwork(file, MESH.sha256, REMEDY)
+        self._network = load_network(file, MESH.sha256, REMEDY)
 
     def fit(self, image: Image, region: Region) -> FittedFace | None:
         """The mesh of the face in a region.

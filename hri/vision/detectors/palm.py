@@ -1,4 +1,4 @@
-"""Palms found in a part of a picture, by MediaPipe's palm detection network in OpenCV.
+"""Palms found in a part of a picture, by MediaPipe's palm detection network.
 
 Zhang et al., "MediaPipe Hands: on-device real-time hand tracking" (2020). The numbers are those of
 MediaPipe's graphs palm_detection_cpu and palm_detection_detection_to_roi.
@@ -16,7 +16,7 @@ import numpy as np
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import Places, is_same
 from hri.vision.detectors.mesh import Region, is_in, upright
-from hri.vision.detectors.opencv_network import OpenCvNetwork, Tensor
+from hri.vision.detectors.network import Tensor, load_network
 from hri.vision.detectors.preprocessing import evened, is_picture
 from hri.vision.detectors.ssd_anchors import ssd_anchors
 from hri.vision.face_models import PALM, REMEDY
@@ -48,13 +48,13 @@ class FoundPalm:
 
 
 class PalmDetector:
-    """Finds palms of at least a twelfth of the part that is looked at, in about 40 ms.
+    """Finds palms of at least a twelfth of the part that is looked at, in about 11 ms.
 
     Raises NotAvailable when the file is not the network.
     """
 
     def __init__(self, file: Path) -> None:
-        self._network = OpenCvNetwork(file, PALM.sha256, REMEDY)
+        self._network = load_network(file, PALM.sha256, REMEDY)
         self._anchors = ssd_anchors(GRIDS)
 
     def find(self, image: Image, part: Region) -> list[FoundPalm]:

@@ -15,7 +15,7 @@ import numpy as np
 from hri.core.errors import NotAvailable
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, merged
-from hri.vision.detectors.opencv_network import read_network_file
+from hri.vision.detectors.network import read_network_file
 from hri.vision.detectors.preprocessing import is_picture
 from hri.vision.detectors.search_squares import Square, whole
 
