@@ -27,6 +27,9 @@ RISE = 0.45
 """Seconds in which a hand is raised or lowered."""
 GESTURES = ("wave", "stop", "thumb_up", "thumb_down", "point")
 NOTHINGS = ("talk", "lift", "fist", "scratch", "carry")
+THUMB = {"thumb_up": 65.0, "thumb_down": -115.0}
+"""Degrees by which a hand is turned so that its thumb points there in the picture: up to 30 aside,
+by how it is yawed."""
 LENGTH = 0.83
 """Of a hand, from the wrist to the tip, in heights of the head: 19 cm of 23."""
 
@@ -106,7 +109,7 @@ def _deed(kind: str, start: float, random: np.random.Generator) -> Deed:
         case "thumb_up" | "thumb_down":
             shape = shown(0)
             up = 1 if kind == "thumb_up" else -1
-            roll, yaw = 90 * up + random.normal(0, 12), up * uniform(-10, 60)
+            roll, yaw = THUMB[kind] + random.normal(0, 12), up * uniform(-10, 60)
             side = (float(uniform(0.5, 1.3)), float(uniform(0.8, 1.5)))
         case "point":
             shape = shown(1)

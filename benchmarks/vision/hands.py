@@ -30,7 +30,7 @@ from hri.vision.detectors.detector_choice import load_detectors
 from hri.vision.hands.hand_gestures import PeopleHands
 from hri.vision.hands.hand_patterns import load_hand_patterns
 from hri.vision.hands.hand_tracker import load_hand_tracker
-from hri.vision.tracking.people import BUSY, PeopleTracker
+from hri.vision.tracking.people import PeopleTracker
 
 TUNING, FIGURES = 10_000, 880_000
 """Seeds."""
@@ -121,7 +121,7 @@ def watch(film: HandFilm, mesh: HandMesh, rooms: Sequence[Image], judged: Judged
         begun = time.thread_time()
         people = tracker.see(frame)
         judged.of_faces.append((time.thread_time() - begun) * 1e3)
-        people = hands.see(frame, people, is_late=tracker.work > BUSY)
+        people = hands.see(frame, people, is_late=tracker.is_searching)
         told += recognizer.update(people)
         judged.costs.append((time.thread_time() - begun) * 1e3)
     judged.add(film, told)

@@ -1,14 +1,16 @@
-"""`hri gesture`: reports nods and shakes in a video, from a camera, or in series of head poses."""
+"""`hri gesture`: reports nods, shakes and gestures of hands in a video or from a camera, and nods
+and shakes in series of head poses."""
 
 from __future__ import annotations
 
 import argparse
 import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from hri.cli.terminal.progress_line import waiting
 from hri.cli.vision.watching import (
@@ -23,19 +25,23 @@ from hri.core import paths
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.quoting import message_line, report
-from hri.core.signals import Frame, HeadGesture, Image
+from hri.core.signals import Frame, HandGesture, HeadGesture, Image
 from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
 from hri.vision.gestures.gesture_file import chosen
 from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, load_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
+from hri.vision.hands.hand_patterns import FILE as HANDS, HandPattern, load_hand_patterns
 from hri.vision.pose_file import Remarks, read_poses
+
+T = TypeVar("T")
 
 SHOWN = 1.5
 """Seconds that a gesture stays in the picture."""
 
-Teller = Callable[[HeadGesture, str], None]
+Gesture = HeadGesture | HandGesture
+Teller = Callable[[Gesture, str], None]
 """Prints a gesture, with its file if there are several."""
 
 
@@ -51,6 +57,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--patterns", nargs="?", type=Path, const=True, metavar="FILE",
         help=f"all gestures of a file, of config/{FILE} without one; else only nod and shake",
     )  # fmt: skip
+    add(
+        "--hands", action="store_true",
+        help=f"report gestures of hands, too; with --check and --list, of config/{HANDS}",
+    )  # fmt: skip
     add("--json", action="store_true", help="print one line of JSON per gesture")
     add("--overlay", type=Path, metavar="FILM.mp4", help="write a film with the results drawn in")
     add(
@@ -63,18 +73,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Exit status 2 when a file is wrong; the others are still processed."""
     path = None if options.patterns is True else options.patterns
+    if options.hands and (options.list or options.check):
+        hands = load_hand_patterns(path)
+        _examined(options, path or paths.find("config", HANDS), hands, _hand_lines)
+        return 0
     known = load_patterns(path)
     if options.list or options.check:
-        if options.list:
-            _show(known.values())
-        count = f"{len(known)} gesture{'s' * (len(known) != 1)}"
-        report(f"{path or paths.find('config', FILE)}: {count}, fine")
+        _examined(options, path or paths.find("config", FILE), known, _head_lines)
         return 0
     patterns = list(known.values()) if options.patterns is not None else chosen(known, ANSWERS)
     tell = _tell_json if options.json else _tell
     if options.pose:
-        if options.overlay or options.video or options.images or options.camera:
-            raise HriError("--pose takes no pictures - leave out the other source and --overlay")
+        if options.overlay or options.video or options.images or options.camera or options.hands:
+            words = "leave out the other source, --overlay and --hands"
+            raise HriError(f"--pose takes no pictures - {words}")
         with waiting("looking at the poses"):
             return _run_poses(options.pose, patterns, options.prompted, tell)
     is_live = not (options.video or options.images or options.simulated)
@@ -131,19 +143,24 @@ def _seen(
     from hri.vision.detectors.detector_choice import load_detectors
     from hri.vision.detectors.overlay import draw
     from hri.vision.gestures.gesture_behaviors import PeopleGestures
-    from hri.vision.tracking.people import PeopleTracker
+    from hri.vision.hands.hand_gestures import PeopleHands
+    from hri.vision.hands.hand_tracker import load_hand_tracker
+    from hri.vision.tracking.people import PeopleTracker, seen_with
 
     detectors = load_detectors(options.detector)
     for problem in detectors.problems:
         print(problem, file=sys.stderr)
-    tracker = PeopleTracker(detectors, CameraView.of(camera))
-    recognizer = PeopleGestures(patterns)
-    recent: list[HeadGesture] = []
+    view = CameraView.of(camera)
+    hands = load_hand_tracker(view) if options.hands else None
+    see = seen_with(hands, PeopleTracker(detectors, view))
+    recognizer, of_hands = PeopleGestures(patterns), PeopleHands(load_hand_patterns().values())
+    recent: list[Gesture] = []
     begun: float | None = None
     for frame in frames:
         begun = frame.time if begun is None else begun
-        people = tracker.see(frame)
-        for gesture in recognizer.update(people, options.prompted):
+        people = see(frame)
+        made: list[Gesture] = [*recognizer.update(people, options.prompted)]
+        for gesture in made + of_hands.update(people):
             recent.append(gesture)
             tell(_since(begun, gesture), "")
         if options.overlay is None:
@@ -153,31 +170,52 @@ def _seen(
         yield frame.time, draw(frame.image, people, recent)
 
 
-def _since(begin: float, gesture: HeadGesture) -> HeadGesture:
+def _since(begin: float, gesture: Gesture) -> Gesture:
     """A gesture with its time from the first picture."""
     return replace(gesture, time=gesture.time - begin)
 
 
-def _tell(gesture: HeadGesture, file: str) -> None:
-    about = f"confidence {gesture.confidence:.2f}, {gesture.latency:.2f} s after it began"
+def _tell(gesture: Gesture, file: str) -> None:
+    if isinstance(gesture, HandGesture):
+        how = f"{gesture.hand.side} hand"
+    else:
+        how = f"confidence {gesture.confidence:.2f}"
+    about = f"{how}, {gesture.latency:.2f} s after it began"
     words = [file, f"{gesture.time:8.2f} s", gesture.person, f"{gesture.kind:<8}", about]
     report("  ".join(word for word in words if word), flush=True)
 
 
-def _tell_json(gesture: HeadGesture, file: str) -> None:
+def _tell_json(gesture: Gesture, file: str) -> None:
     told: dict[str, str | float] = {"file": file} if file else {}
-    told |= {
-        "t": round(gesture.time, 3),
-        "gesture": gesture.kind,
-        "person": gesture.person,
-        "confidence": round(gesture.confidence, 3),
-        "latency_s": round(gesture.latency, 3),
-    }
-    print(json.dumps(told), flush=True)
+    told |= {"t": round(gesture.time, 3), "gesture": gesture.kind, "person": gesture.person}
+    if isinstance(gesture, HandGesture):
+        told["hand"] = gesture.hand.side
+    else:
+        told["confidence"] = round(gesture.confidence, 3)
+    print(json.dumps(told | {"latency_s": round(gesture.latency, 3)}), flush=True)
 
 
-def _show(patterns: Iterable[Pattern]) -> None:
-    for pattern in patterns:
-        report(f"{pattern.gesture:<10} {pattern.event:<18} {pattern.about}")
-        for row in pattern.rows:
-            report(f"{'':<10} {row.words(pattern.axis)}")
+def _examined(
+    options: argparse.Namespace,
+    path: Path,
+    known: Mapping[str, T],
+    lines: Callable[[T], Iterable[str]],
+) -> None:
+    """Report that a file of gestures is right, and on request what is in it."""
+    if options.list:
+        for pattern in known.values():
+            for line in lines(pattern):
+                report(line)
+    count = f"{len(known)} gesture{'s' * (len(known) != 1)}"
+    report(f"{path}: {count}, fine")
+
+
+def _head_lines(pattern: Pattern) -> Iterator[str]:
+    yield f"{pattern.gesture:<10} {pattern.event:<18} {pattern.about}"
+    for row in pattern.rows:
+        yield f"{'':<10} {row.words(pattern.axis)}"
+
+
+def _hand_lines(pattern: HandPattern) -> Iterator[str]:
+    yield f"{pattern.gesture:<10} {pattern.event:<18} {pattern.about}"
+    yield f"{'':<10} {pattern.words()}"

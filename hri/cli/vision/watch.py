@@ -30,6 +30,7 @@ from hri.core.signals import (
     ColorBlob,
     FoundObject,
     Frame,
+    HandGesture,
     HeadGesture,
     Image,
     Motion,
@@ -62,11 +63,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--prompted", action="store_true", help="an answer is expected: a single nod is enough")
     add("--patterns", action="store_true", help="all gestures of gestures.toml, not nod and shake")
+    add("--hands", action="store_true", help="show hands and their gestures, too")
     add("--objects", metavar="SET.mdl", help="recognize the objects of a set, too")
     about = "find colors, too: their names with commas between, or all"
     add("--colors", nargs="?", const="", metavar="NAMES", help=about)
     add("--motion", action="store_true", help="show what moves, too")
-    add("--no-landmarks", action="store_true", help="hide the points of the faces")
+    add("--no-landmarks", action="store_true", help="hide the points of faces and hands")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -100,13 +102,13 @@ class Watcher:
     """Analyzes frames, prints their gestures, and draws the results."""
 
     see: Callable[[Frame], People]
-    recognize: Callable[[People], Iterable[HeadGesture]]
+    recognize: Callable[[People], Iterable[HeadGesture | HandGesture]]
     has_landmarks: bool = True
     find: Callable[[Image], Sequence[FoundObject]] = lambda image: ()
     """Recognizes objects."""
     find_colors: Callable[[Image], Sequence[ColorBlob]] = lambda image: ()
     find_motion: Callable[[Frame], Motion | None] = lambda frame: None
-    _recent: list[HeadGesture] = field(default_factory=list)
+    _recent: list[HeadGesture | HandGesture] = field(default_factory=list)
 
     @classmethod
     def of(cls, camera: Camera, options: argparse.Namespace) -> Watcher:
@@ -116,31 +118,37 @@ class Watcher:
         from hri.vision.gestures.gesture_behaviors import PeopleGestures
         from hri.vision.gestures.gesture_file import chosen
         from hri.vision.gestures.gesture_patterns import ANSWERS, load_patterns
-        from hri.vision.tracking.people import PeopleTracker
+        from hri.vision.hands.hand_gestures import PeopleHands
+        from hri.vision.hands.hand_patterns import load_hand_patterns
+        from hri.vision.hands.hand_tracker import load_hand_tracker
+        from hri.vision.tracking.people import PeopleTracker, seen_with
 
         detectors = load_detectors(options.detector)
         for problem in detectors.problems:
             print(problem, file=sys.stderr)
-        tracker = PeopleTracker(detectors, CameraView.of(camera))
+        view = CameraView.of(camera)
+        tracker = PeopleTracker(detectors, view)
+        hands = load_hand_tracker(view) if options.hands else None
+        hand_gestures = PeopleHands(load_hand_patterns().values())
         known = load_patterns()
         gestures = PeopleGestures(chosen(known, known if options.patterns else ANSWERS))
 
-        def recognize(people: People) -> Iterable[HeadGesture]:
-            return gestures.update(people, options.prompted)
+        def recognize(people: People) -> Iterable[HeadGesture | HandGesture]:
+            return [*gestures.update(people, options.prompted), *hand_gestures.update(people)]
 
-        watcher = cls(tracker.see, recognize, not options.no_landmarks)
+        watcher = cls(seen_with(hands, tracker), recognize, not options.no_landmarks)
         if options.objects is not None:
             from hri.vision.objects.model_file import find_models, load_models
             from hri.vision.objects.recognizer import ObjectRecognizer
 
             models = load_models(find_models(options.objects))
-            watcher.find = ObjectRecognizer(models, CameraView.of(camera)).recognize
+            watcher.find = ObjectRecognizer(models, view).recognize
         if options.colors is not None:
             from hri.vision.color.segmentation import ColorSegmenter
 
             watcher.find_colors = ColorSegmenter(stills.color_tables(options.colors)).segment
         if options.motion:
-            watcher.find_motion = _motion_finder(CameraView.of(camera))
+            watcher.find_motion = _motion_finder(view)
         return watcher
 
     def look(self, frame: Frame) -> Image:
@@ -151,15 +159,20 @@ class Watcher:
         for gesture in self.recognize(people):
             self._recent.append(gesture)
             who = gesture.person or "somebody"
-            report(
-                f"{frame.time:7.2f} s  {who}  {gesture.kind}  {gesture.confidence:.2f}", flush=True
-            )
+            report(f"{frame.time:7.2f} s  {who}  {gesture.kind}  {_how(gesture)}", flush=True)
         self._recent = [g for g in self._recent if 0 <= frame.time - g.time <= SHOWN]
         seen = draw(frame.image, people, self._recent, self.has_landmarks)
         seen = draw_blobs(seen, self.find_colors(frame.image))
         if (motion := self.find_motion(frame)) is not None:
             seen = draw_motion(seen, motion)
         return draw_objects(seen, self.find(frame.image))
+
+
+def _how(gesture: HeadGesture | HandGesture) -> str:
+    """What follows its name: how surely it is one, or which hand made it."""
+    if isinstance(gesture, HandGesture):
+        return f"{gesture.hand.side} hand"
+    return f"{gesture.confidence:.2f}"
 
 
 def _motion_finder(view: CameraView) -> Callable[[Frame], Motion | None]:

@@ -1,4 +1,4 @@
-"""What the robot sees, drawn over the picture: boxes, ids, landmarks, head pose, gaze, gestures."""
+"""What the robot sees, drawn over the picture: boxes, ids, landmarks, poses, hands, gestures."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ import numpy as np
 from hri.core.signals import (
     ColorBlob,
     FoundObject,
+    Hand,
+    HandGesture,
     HeadGesture,
     HeadPose,
     Image,
@@ -24,6 +26,9 @@ Point = tuple[int, int]
 
 CALM, LOOKING, HIDDEN, GESTURE = (90, 160, 255), (80, 220, 120), (150, 150, 150), (255, 210, 60)
 """Red, green, blue of a person's marks: seen, looking at the robot, out of sight, and a gesture."""
+HAND: Color = (255, 160, 70)
+BONES = np.array([[0, root, root + 1, root + 2, root + 3] for root in range(1, 21, 4)])
+"""Of each finger, the points of a hand from the wrist to its tip."""
 OBJECT: Color = (230, 120, 240)
 AXES: tuple[Color, ...] = ((235, 80, 80), (80, 220, 120), (90, 160, 255))
 """Of the head's own left, down and ahead."""
@@ -40,7 +45,7 @@ FONT = cv2.FONT_HERSHEY_SIMPLEX
 def draw(
     image: Image,
     people: People | None,
-    gestures: Sequence[HeadGesture] = (),
+    gestures: Sequence[HeadGesture | HandGesture] = (),
     has_landmarks: bool = True,
 ) -> Image:
     """A copy of the picture, uint8 [height, width, 3], RGB, with everyone in it marked.
@@ -48,6 +53,7 @@ def draw(
     A box and a line of words a person: id or name, distance, engagement, pose in degrees; three
     axes from the middle of the face (left red, down green, ahead blue); a thick box for the one
     who is attended to, a green one for who looks at the robot, a gray one for who is out of sight.
+    Hands have their bones, and below the wrist whose left or right one it is and its shape.
     `gestures` are those of the last moment, written in the box of who made them.
     """
     canvas = np.ascontiguousarray(image).copy()
@@ -141,6 +147,8 @@ class _Marks:
     def draw_all(self, is_attended: bool, gestures: Sequence[str], has_landmarks: bool) -> None:
         if has_landmarks and self._person.is_visible:
             self._draw_landmarks()
+            for hand in self._person.hands:
+                self._draw_hand(hand)
         self._draw_box(3 if is_attended else 1)
         if self._person.is_visible:
             self._draw_pose(self._person.pose)
@@ -173,6 +181,18 @@ class _Marks:
         inside &= (flat >= 0).all(axis=1) & (flat[:, 0] < width) & (flat[:, 1] < height)
         at = flat[inside].astype(int)
         self._canvas[at[:, 1], at[:, 0]] = self._color
+
+    def _draw_hand(self, hand: Hand) -> None:
+        flat = np.asarray(hand.landmarks, np.float64)[:, :2]
+        if not np.isfinite(flat).all():
+            return
+        points = np.clip(np.rint(flat), -REACH, REACH).astype(np.int32)
+        cv2.polylines(self._canvas, list(points[BONES]), False, HAND, 1, cv2.LINE_AA)
+        for x, y in points.tolist():
+            cv2.circle(self._canvas, (x, y), 2, HAND, -1, cv2.LINE_AA)
+        x, y = points[0].tolist()
+        words = f"{hand.side} {hand.shape}".strip()
+        _write(self._canvas, words, (x, y + round(24 * self._size)), 0.8 * self._size, HAND)
 
     def _draw_pose(self, pose: HeadPose) -> None:
         """The head's own axes, as seen from the front and far away."""

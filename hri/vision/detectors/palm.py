@@ -28,7 +28,7 @@ GRIDS = ((24, 2), (12, 6))
 POINTS = 7
 WRIST, MIDDLE_KNUCKLE = 0, 2
 """Which of its points they are."""
-LEAST_SCORE = 0.3
+LEAST_SCORE = 0.15
 """Lower than MediaPipe's 0.5: the fit of a hand decides, and who points, or holds a thumb up, hides
 much of the palm."""
 HAND_SCALE, HAND_SHIFT = 2.6, -0.5

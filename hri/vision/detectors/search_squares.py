@@ -95,8 +95,6 @@ class SearchPlan:
     def __init__(self, squares: Sequence[Square]) -> None:
         """`squares` are those of a whole search, one of the largest first."""
         self._squares = list(squares)
-        self.work = 0.0
-        """Seconds of modeled work for the last picture."""
         self._looked: list[float | None] = [None] * len(squares)
         largest = squares[0].side if squares else 0
         self._turns = [_searches(square.side / largest) for square in squares]
@@ -127,7 +125,6 @@ class SearchPlan:
                 waited.append((-lateness, index))
         affordable = max(1, int((BUDGET - fits * FIT_COST) / SQUARE_COST))
         chosen = sorted(waited)[:affordable]
-        self.work = fits * FIT_COST + len(chosen) * SQUARE_COST
         for _, index in chosen:
             self._looked[index] = time
         return [self._squares[index] for _, index in sorted(chosen, key=lambda pair: pair[1])]

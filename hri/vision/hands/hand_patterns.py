@@ -60,6 +60,18 @@ class HandPattern:
         missed = abs(math.remainder(math.atan2(x, -y) - self.toward, math.tau))
         return self.beyond <= missed <= self.within
 
+    def words(self) -> str:
+        """What it asks for: "open, palm, 0 to 40 deg from up: still for 0.5 s"."""
+        shape = f"{self.shape}, palm" if self.is_palm else self.shape
+        if self.toward is not None:
+            name = next(name for name, to in DIRECTIONS.items() if to == self.toward)
+            least, most = (round(math.degrees(angle)) for angle in (self.beyond, self.within))
+            shape += f", {least} to {most} deg from {name}"
+        if self.swings:
+            swings = f"{self.swings} swings of {self.width:g} palms within {self.duration:g} s each"
+            return f"{shape}: {swings}"
+        return f"{shape}: still for {self.hold:g} s"
+
 
 def load_hand_patterns(path: Path | None = None) -> dict[str, HandPattern]:
     """The gestures of a file by name; without a path those of `hands.toml` in the configuration.

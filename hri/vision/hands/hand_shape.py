@@ -15,7 +15,7 @@ Vectors = NDArray[np.float64]
 OPEN, POINTING, THUMB, FIST = "open", "pointing", "thumb", "fist"
 SHAPES = {
     # thumb, index, middle, ring, little finger; None is either
-    OPEN: (True, True, True, True, True),
+    OPEN: (None, True, True, True, True),
     POINTING: (None, True, False, False, False),
     THUMB: (True, False, False, False, False),
     FIST: (False, False, False, False, False),

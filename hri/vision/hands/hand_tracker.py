@@ -1,8 +1,9 @@
 """The hands of the people who are seen: found now and then, and followed from look to look.
 
-A search for hands costs as much as all the rest of seeing, and a look at one hand nearly half of
-that. So hands are looked at a few times a second, one in a picture: each picture brings some
-milliseconds, and what has been saved up pays for the next look. The costs are modeled, not
+A search for hands costs as much as seeing a face, and a look at one hand nearly half of that. So
+each picture brings some milliseconds, and what has been saved up pays for the next looks. Where
+something moves in reach of someone, hands are searched for at once, and again until it has rested
+for a while; never in a picture in which faces are searched for. The costs are modeled, not
 measured, so that the same pictures give the same hands on every machine.
 """
 
@@ -30,15 +31,14 @@ from hri.vision.hands.reach import Movement, owner_of, part_to_search
 
 log = logging.getLogger("hri.vision")
 
-SEARCH_COST, LOOK_COST = 38.0, 15.0
+SEARCH_COST, LOOK_COST = 12.0, 5.0
 """Milliseconds of a search for palms, and of a look at one hand, on one core of 2.5 GHz."""
 INCOME = 130.0
-"""Milliseconds a second that may be spent: some 8 looks, or one search and 6."""
-SAVED = 40.0
-"""Milliseconds that can be saved up at most: one search."""
-SEARCH_MOVING, SEARCH_STILL = 0.8, 2.4
-"""Seconds between two searches while something moves in reach of someone, and else: also while a
-hand shows something, which a search would leave unseen for some pictures."""
+"""Milliseconds a second that may be spent: some 4 searches and 16 looks."""
+SAVED = 22.0
+"""Milliseconds that can be saved up at most, and spent in one picture: a search and two looks."""
+SEARCH_MOVING, SEARCH_STILL = 0.2, 1.2
+"""Seconds between two searches while something moves in reach of someone, and else."""
 PRESENT = 0.5
 """Least presence of a hand."""
 MISSES = 2
@@ -53,8 +53,12 @@ SAME = 0.35
 """Sides of their regions; nearer to each other, two hands are one."""
 MOST_EACH = 2
 MOST_CANDIDATES = 4
-RESTING = 0.3
-"""How urgent a look at a hand is that does nothing, as a part of that at another."""
+RESTING = 0.2
+"""Seconds between two looks at a hand that shows nothing."""
+MOVED = 0.05
+"""Sides of its region by which a hand moves that does not rest."""
+IN_VAIN = 0.6
+"""Part of a movement that stays where hands were searched for in vain, to be searched again."""
 SIDES_KEPT = 0.7
 """Part of what was known of the side that counts at the next look."""
 
@@ -77,6 +81,14 @@ class HandTrack:
     left: float = 0.5
     misses: int = 0
 
+    @property
+    def is_resting(self) -> bool:
+        """Whether it shows nothing, and has not moved since it was looked at."""
+        if self.hand is None or self.hand.shape not in ("", FIST):
+            return False
+        moved = self.places - self.hand.landmarks[list(FOLLOWED), :2]
+        return bool(np.abs(moved.mean(axis=0)).max() < MOVED * self.region.side)
+
 
 class HandTracker:
     """Adds hands to the people of each picture; the same pictures and people give the same hands.
@@ -95,11 +107,14 @@ class HandTracker:
         self._before: Picture | None = None
         self._saved = SAVED
         self._searched = -math.inf
-        self._turns, self._numbers = itertools.count(), itertools.count(1)
-        self._searched_for: dict[str, float] = {}
+        self._numbers = itertools.count(1)
+        self._searched_for: dict[str, tuple[float, int]] = {}
+        """For whose hands was searched: seconds, when last, and how often."""
 
     def see(self, frame: Frame, people: People, is_late: bool = False) -> People:
-        """The people with their hands. `is_late`: this picture has cost much already."""
+        """The people with their hands. `is_late`: this picture has cost much already, and one look
+        at one hand is all that there is time for.
+        """
         picture = gray_picture(frame.image)
         if picture is None or not math.isfinite(frame.time):
             return people
@@ -115,8 +130,8 @@ class HandTracker:
         here = [person for person in people.persons if person.is_visible and _has_box(person)]
         self._keep({person.id for person in people.persons})
         self._follow(picture)
-        if here and not is_late:
-            self._spend(frame, here, people.attended)
+        if here:
+            self._spend(frame, here, people.attended, is_late)
         return self._with_hands(people)
 
     def _keep(self, ids: set[str]) -> None:
@@ -126,7 +141,7 @@ class HandTracker:
             for track in self._tracks
             if track.person in ids and self._time - track.found <= FORGOTTEN
         ]
-        self._searched_for = {id: time for id, time in self._searched_for.items() if id in ids}
+        self._searched_for = {id: last for id, last in self._searched_for.items() if id in ids}
 
     def _follow(self, picture: Picture) -> None:
         """Move the regions along with the hands since the picture before."""
@@ -140,29 +155,32 @@ class HandTracker:
             region = track.region
             track.region = replace(region, x=region.x + across, y=region.y + down)
 
-    def _spend(self, frame: Frame, here: Sequence[Person], attended: str) -> None:
-        """A search, or one look, as far as it can be paid."""
+    def _spend(self, frame: Frame, here: Sequence[Person], attended: str, is_late: bool) -> None:
+        """A search, and looks, as far as they can be paid."""
         for face in (person.pose.box for person in here):
             if face is not None:
                 self._movement.forget(face)
-        search = self._next_search(frame.image, here, attended)
-        new = [track for track in self._tracks if track.hand is None]
-        if search is not None and not new:
-            # Nothing else is looked at until the search is paid.
-            if self._saved >= SEARCH_COST:
+        if not is_late and self._saved >= SEARCH_COST:
+            search = self._next_search(frame.image, here, attended)
+            if search is not None:
                 self._saved -= SEARCH_COST
                 self._search(frame, here, *search)
-        elif self._tracks and self._saved >= LOOK_COST:
-            self._saved -= LOOK_COST
-            self._look(frame, max(self._tracks, key=self._urgency), here)
+        due = sorted(filter(self._is_due, self._tracks), key=self._urgency, reverse=True)
+        for track in due[:1] if is_late else due:
+            if self._saved >= LOOK_COST:
+                self._saved -= LOOK_COST
+                self._look(frame, track, here)
+
+    def _is_due(self, track: HandTrack) -> bool:
+        """Whether to look at a hand; one that rests is looked at less often."""
+        return not track.is_resting or self._time - track.looked >= RESTING
 
     def _next_search(
         self, image: Image, here: Sequence[Person], attended: str
     ) -> tuple[Person, Region] | None:
         """For whose hands to search now, and where; None while there is no need."""
         waited = self._time - self._searched
-        is_busy = any(not _is_resting(track) for track in self._tracks)
-        if waited < (SEARCH_STILL if is_busy else SEARCH_MOVING):
+        if waited < SEARCH_MOVING:
             return None
         size = image.shape[1], image.shape[0]
         for track in self._tracks:
@@ -172,9 +190,9 @@ class HandTracker:
             known = sum(track.person == person.id for track in self._tracks)
             if person.pose.box is None or known >= MOST_EACH:
                 continue
-            turn = next(self._turns)
-            part, moved = part_to_search(person.pose.box, self._movement, size, turn)
-            since = self._time - self._searched_for.get(person.id, -math.inf)
+            last, times = self._searched_for.get(person.id, (-math.inf, 0))
+            part, moved = part_to_search(person.pose.box, self._movement, size, times)
+            since = self._time - last
             if moved > 0 or waited >= SEARCH_STILL:
                 order = (moved > 0, min(since, 60.0), person.id == attended)
                 if best is None or order > best[0]:
@@ -182,8 +200,10 @@ class HandTracker:
         return None if best is None else best[1:]
 
     def _search(self, frame: Frame, here: Sequence[Person], person: Person, part: Region) -> None:
-        self._searched = self._searched_for[person.id] = frame.time
-        self._movement.forget(_box(part))
+        self._searched = frame.time
+        times = self._searched_for.get(person.id, (0.0, 0))[1]
+        self._searched_for[person.id] = frame.time, times + 1
+        self._movement.forget(_box(part), IN_VAIN)
         faces = [one.pose.box or FaceBox(0, 0, 0, 0) for one in here]
         for palm in self._palms.find(frame.image, part)[:MOST_CANDIDATES]:
             region = _wider(hand_region(palm))
@@ -199,8 +219,7 @@ class HandTracker:
 
     def _urgency(self, track: HandTrack) -> tuple[bool, float]:
         """Of a look: at what may be a hand first, then at who has waited longest."""
-        waited = min(60.0, self._time - track.looked)
-        return track.hand is None, waited * (RESTING if _is_resting(track) else 1.0)
+        return track.hand is None, min(60.0, self._time - track.looked)
 
     def _look(self, frame: Frame, track: HandTrack, here: Sequence[Person]) -> None:
         is_new = track.hand is None
@@ -290,11 +309,6 @@ def _has_box(person: Person) -> bool:
 
 def _wider(region: Region) -> Region:
     return replace(region, side=WIDER * region.side)
-
-
-def _is_resting(track: HandTrack) -> bool:
-    """Whether a hand shows nothing."""
-    return track.hand is not None and track.hand.shape in ("", FIST)
 
 
 def _are_same(first: Region, second: Region) -> bool:

@@ -22,11 +22,16 @@ MOVED = 8.0
 """Brightness, of 255, by which a cell changes where something moves; noise changes it by 1."""
 FADING = 0.7
 """Seconds after which a movement is half forgotten: a raised hand that is held still."""
+FADED = 0.1
+"""Of a movement that is forgotten."""
 REACH = 3.6
 """Sizes of the face from the head to as far as a hand can be: an arm of 0.7 m."""
-SIDE = 4.5
-"""Of the part that is looked at, in sizes of the face: smaller, it holds no hand that is stretched
-out; in larger ones the network misses hands."""
+SIDES = (4.5, 3.2)
+"""Of the parts that are looked at in turn where something moves, in sizes of the face: in one the
+network sees the hands that it misses in the other. Where nothing moves it is the first: a smaller
+one holds no hand that is stretched out."""
+RAISED = 1.5
+"""How much of what moved counts, from its upper end, in sizes of the face: a hand, not its arm."""
 ASIDE, BELOW = 1.5, 1.0
 """Where hands are when nothing moves, in sizes of the face from the head."""
 SMALLEST = 96
@@ -62,13 +67,13 @@ class Movement:
         self.moved = np.maximum(changed, self.moved * np.float32(fading))
         self._before, self._compared = cells, time
 
-    def forget(self, box: FaceBox) -> None:
-        """Take what moved there for known."""
+    def forget(self, box: FaceBox, stays: float = 0.0) -> None:
+        """Take what moved there for known, but for a part that stays."""
         left, top = (max(0, int(edge // CELL)) for edge in (box.x, box.y))
         right, bottom = (
             max(0, math.ceil(edge / CELL)) for edge in (box.x + box.width, box.y + box.height)
         )
-        self.moved[top:bottom, left:right] = 0
+        self.moved[top:bottom, left:right] *= np.float32(stays)
 
 
 def part_to_search(
@@ -81,21 +86,25 @@ def part_to_search(
     """
     breadth = max(face.width, face.height)
     x, y = face.x + face.width / 2, face.y + face.height / 2
-    side = min(max(SMALLEST, SIDE * breadth), 2.0 * max(size))
     rows, columns = np.mgrid[: movement.moved.shape[0], : movement.moved.shape[1]]
     across, down = (columns + 0.5) * CELL - x, (rows + 0.5) * CELL - y
     is_near = np.hypot(across, down - BELOW * breadth) < REACH * breadth
-    weights = np.where(is_near, movement.moved, 0.0)
+    weights = np.where(is_near & (movement.moved > FADED), movement.moved, 0.0)
     moved = float(weights.sum())
     if moved > 0:
         # Of two hands that move one is looked for: the middle between both would hold neither.
         half = [float(weights[is_it].sum()) for is_it in (across < 0, across >= 0)]
         weights = np.where((across < 0) == (half[0] >= half[1]), weights, 0.0)
+        # A hand that was raised is at the upper end of its way.
+        top = float(down[weights >= weights.max() / 2].min())
+        weights = np.where(down <= top + RAISED * breadth, weights, 0.0)
         x += float((weights * across).sum() / weights.sum())
         y += float((weights * down).sum() / weights.sum())
     else:
         x += (ASIDE if turn % 2 else -ASIDE) * breadth
         y += BELOW * breadth
+    side = SIDES[turn % len(SIDES)] if moved > 0 else SIDES[0]
+    side = min(max(SMALLEST, side * breadth), 2.0 * max(size))
     # Beyond the edges of the picture there is nothing.
     x, y = (
         min(max(place, min(side / 2, length / 2)), max(length - side / 2, length / 2))

@@ -23,7 +23,7 @@ from hri.vision.detectors.mesh import disagreement, region_of, region_of_landmar
 from hri.vision.detectors.preprocessing import gray_picture
 from hri.vision.detectors.search_squares import SearchPlan
 from hri.vision.engagement import Zones
-from hri.vision.hands.hand_tracker import load_hand_tracker
+from hri.vision.hands.hand_tracker import HandTracker, load_hand_tracker
 from hri.vision.tracking.appearance import Look, look_of
 from hri.vision.tracking.assignment import assigned
 from hri.vision.tracking.face_track import MAX_GAP, FaceTrack, Sight, is_face
@@ -48,8 +48,6 @@ SEARCH_NEWCOMERS = 0.4
 """The same else."""
 SEARCH_BOXES = 0.3
 """The same at most when there is no mesh to say where the faces are."""
-BUSY = 0.012
-"""Seconds of modeled work; no time is left for hands in a picture that took more."""
 SECOND_LOOK = 0.5
 """Seconds within which a face must be found again when there is no mesh to confirm it."""
 CLOSE, APART = 1.1, 1.4
@@ -92,6 +90,7 @@ class PeopleTracker:
         self._view, self._zones = view or CameraView(), zones or Zones()
         self._numbers = itertools.count(first)
         self._last = People(-math.inf)
+        self._is_searching = False
         self._size = (0, 0)
         self._forget()
 
@@ -117,9 +116,9 @@ class PeopleTracker:
         return self._described(sight)
 
     @property
-    def work(self) -> float:
-        """Seconds of modeled work for the last picture."""
-        return self._plan.work
+    def is_searching(self) -> bool:
+        """Whether faces were searched for in the last picture, which takes as long as all else."""
+        return self._is_searching
 
     def _forget(self) -> None:
         self._known: list[PersonTrack] = []
@@ -175,6 +174,7 @@ class PeopleTracker:
         missing = [s.identity.expected_face(sight.time) for s in self._known if s.face is None]
         fits = 0 if self._mesh is None else min(MOST_FITS, sum(1 for _ in self._seen()))
         squares = self._plan.due(sight.time, interval, fits, missing)
+        self._is_searching = bool(squares)
         if not squares:
             return
         strangers = []
@@ -385,20 +385,24 @@ class Seeing:
         for problem in detectors.problems:
             log.warning(problem)
         tracker = PeopleTracker(detectors, self.view, self.zones, self.first)
-        hands = load_hand_tracker(self.view) if self.hands else None
-        if hands is None:
-            return tracker.see
-
-        def see(frame: Frame) -> People:
-            people = tracker.see(frame)
-            return hands.see(frame, people, is_late=tracker.work > BUSY)
-
-        return see
+        return seen_with(load_hand_tracker(self.view), tracker) if self.hands else tracker.see
 
     def note(self, people: People) -> None:
         """Let no tracker made from now on give the ids of these people again."""
         for person in people.persons:
             self.first = max(self.first, number_of(person.id) + 1)
+
+
+def seen_with(hands: HandTracker | None, tracker: PeopleTracker) -> Callable[[Frame], People]:
+    """What sees people with their hands, or without where those cannot be seen."""
+    if hands is None:
+        return tracker.see
+
+    def see(frame: Frame) -> People:
+        people = tracker.see(frame)
+        return hands.see(frame, people, is_late=tracker.is_searching)
+
+    return see
 
 
 def _gap(time: float, one: PersonTrack, other: PersonTrack) -> float:

@@ -11,8 +11,10 @@ from hypothesis import given, settings, strategies as st
 
 from hri.cli.main import main
 from hri.core.errors import HriError
+from hri.core.signals import Hand, HandGesture
 from hri.simulation.people.body_motion import Posture, nod_angles
 from hri.simulation.people.scripted_film import Film, Role
+from hri.vision.hands.hand_gestures import PeopleHands
 from hri.vision.pose_file import Remarks, read_poses
 
 HEADER = "t_s,pitch_deg,yaw_deg,roll_deg"
@@ -208,6 +210,31 @@ def test_the_patterns_are_checked_and_listed(tmp_path, capsys):
     bad = file(tmp_path, "bad.toml", ["[nod]", 'axis = "pich"'])
     assert main(["gesture", "--check", "--patterns", str(bad)]) == 2
     assert 'bad.toml:2:1: axis is "pich" - did you mean "pitch"?' in capsys.readouterr().err
+
+
+def test_the_patterns_of_hands_are_checked_and_listed(tmp_path, capsys):
+    assert main(["gesture", "--check", "--hands"]) == 0
+    assert "hands.toml: 6 gestures, fine" in capsys.readouterr().out
+    assert main(["gesture", "--list", "--hands"]) == 0
+    listed = capsys.readouterr().out
+    assert "hand.opened" in listed
+    assert "open, palm, 0 to 40 deg from up: still for 0.5 s" in listed
+    assert "open, 0 to 65 deg from up: 3 swings of 0.4 palms within 0.8 s each" in listed
+    bad = file(tmp_path, "bad.toml", ["[hi]", 'event = "hand.hi"', 'shape = "opn"', "hold_s = 1"])
+    assert main(["gesture", "--check", "--hands", "--patterns", str(bad)]) == 2
+    assert 'bad.toml:3:1: shape is "opn" - did you mean "open"?' in capsys.readouterr().err
+
+
+def test_a_gesture_of_a_hand_is_told_with_whose_it_is(monkeypatch, tmp_path, capsys):
+    hand = Hand("left", 0.0, np.zeros((21, 3), np.float32), "open")
+    told = [HandGesture("stop", 0.5, hand, "p1", 0.6)]
+    monkeypatch.setattr(PeopleHands, "update", lambda self, people: [told.pop()] if told else [])
+    for number in range(2):
+        cv2.imwrite(str(tmp_path / f"{number}.png"), np.full((120, 160, 3), 90, np.uint8))
+    assert main(["gesture", "--images", str(tmp_path), "--hands", "--json"]) == 0
+    (row,) = map(json.loads, capsys.readouterr().out.splitlines())
+    assert list(row) == ["t", "gesture", "person", "hand", "latency_s"]
+    assert (row["gesture"], row["person"], row["hand"]) == ("stop", "p1", "left")
 
 
 def test_poses_and_pictures_do_not_go_together(tmp_path, capsys):

@@ -4,6 +4,7 @@ import os
 import signal
 import stat
 from argparse import ArgumentParser
+from dataclasses import replace
 from itertools import pairwise
 
 import cv2
@@ -15,7 +16,16 @@ from hri.cli.main import main
 from hri.cli.vision.watch import Watcher, show, write
 from hri.cli.vision.watching import add_source, frames_of, interruption, opened_camera, paced
 from hri.core.clock import FakeClock
-from hri.core.signals import FaceBox, Frame, HeadGesture, HeadPose, People, Person
+from hri.core.signals import (
+    FaceBox,
+    Frame,
+    Hand,
+    HandGesture,
+    HeadGesture,
+    HeadPose,
+    People,
+    Person,
+)
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
@@ -53,6 +63,30 @@ def stage(*faults, plan=None):
     screen.plan = plan or {}
     screen.activate()
     return camera, screen
+
+
+def test_hands_are_drawn_and_their_gestures_told(capsys):
+    points = np.zeros((21, 3), np.float32)
+    points[:, 0], points[:, 1] = np.linspace(220, 300, 21), np.linspace(60, 200, 21)
+    hand = Hand("left", 1.0, points, "open")
+
+    def with_hand(frame):
+        (person,) = see(frame).persons
+        return People(frame.time, (replace(person, hands=(hand,)),))
+
+    def wave(people):
+        return [HandGesture("wave", people.time, hand, "p1", 0.8)]
+
+    plain, drawn, hidden = (
+        Watcher(sees, told, has_landmarks).look(Frame(GRAY, 1.0, 0))
+        for sees, told, has_landmarks in (
+            (see, wave, True), (with_hand, wave, True), (with_hand, wave, False),
+        )
+    )  # fmt: skip
+    changed = (plain != drawn).any(axis=2)
+    assert all(changed[round(y), round(x)] for x, y, _ in points.tolist())
+    assert (hidden == plain).all()
+    assert capsys.readouterr().out.splitlines()[0] == "   1.00 s  p1  wave  left hand"
 
 
 def test_a_window_shows_what_is_seen_until_escape_is_pressed(capsys):

@@ -127,14 +127,40 @@ def test_the_cost_is_bounded_whatever_there_is_to_see(count: int) -> None:
     assert hands.looks > 20
 
 
-def test_one_picture_has_one_search_or_one_look() -> None:
+@pytest.mark.parametrize("is_late", [False, True])
+def test_a_picture_has_a_search_and_two_looks_at_most_and_a_late_one_a_look(is_late: bool) -> None:
     hands = Hands(places=[(180.0, 150.0), (440.0, 170.0)])
     tracker = hands.tracker()
     for number in range(90):
-        before = hands.searches + hands.looks
+        before = len(hands.costs)
         frame = Frame(image(number % 2), number / RATE, number)
-        tracker.see(frame, People(frame.time, (person(),)))
-        assert hands.searches + hands.looks <= before + 1
+        late = is_late and number > 30
+        tracker.see(frame, People(frame.time, (person(),)), late)
+        spent = hands.costs[before:]
+        assert sum(spent) <= (LOOK_COST if late else SAVED)
+    assert hands.looks > 60
+
+
+def raised(number: int) -> Image:
+    """A room where a bright hand comes up from below within half a second, after two."""
+    shown = np.full((SIZE[1], SIZE[0], 3), 100, np.uint8)
+    y = round(460 - 300 * min(1.0, max(0.0, number / RATE - 2.0) / 0.5))
+    shown[y - 40 : y + 40, 160:240] = 220
+    return shown
+
+
+def test_a_hand_that_rises_is_searched_for_at_once() -> None:
+    hands = Hands(places=())
+    tracker, searched = hands.tracker(), 0
+    for number in range(50):
+        time = number / RATE
+        if number == round(2.5 * RATE):
+            searched, hands.places = hands.searches, [(200.0, 160.0)]
+        seen = tracker.see(Frame(raised(number), time, number), People(time, (person(),)))
+        if seen.persons[0].hands:
+            break
+    assert time <= 2.85
+    assert hands.searches > searched
 
 
 def test_the_same_pictures_give_the_same_hands() -> None:
@@ -171,7 +197,7 @@ def test_who_leaves_takes_the_hands_along() -> None:
     assert other.persons[0].hands == ()
 
 
-def test_a_picture_that_cost_much_already_is_not_looked_at() -> None:
+def test_a_picture_that_cost_much_already_is_not_searched() -> None:
     hands = Hands()
     tracker = hands.tracker()
     for number in range(60):
