@@ -48,7 +48,8 @@ class HandMemory:
         size = _palm(self._looks)
         if not (math.isfinite(size) and size > 0):
             return []
-        x = float(hand.landmarks[TIP, 0]) / size
+        # Seen from the wrist: who talks with the hands moves them, and who waves turns them.
+        x = float(hand.landmarks[TIP, 0] - hand.landmarks[0, 0]) / size
         self._swings.update(hand.time, x, self._least)
         found = []
         for row in self._patterns:

@@ -33,12 +33,14 @@ log = logging.getLogger("hri.vision")
 
 SEARCH_COST, LOOK_COST = 12.0, 5.0
 """Milliseconds of a search for palms, and of a look at one hand, on one core of 2.5 GHz."""
-INCOME = 130.0
-"""Milliseconds a second that may be spent: some 4 searches and 16 looks."""
-SAVED = 22.0
-"""Milliseconds that can be saved up at most, and spent in one picture: a search and two looks."""
+INCOME = 110.0
+"""Milliseconds a second that may be spent: some 4 searches and 12 looks."""
+SAVED = 17.0
+"""Milliseconds that can be saved up at most, and spent in one picture: a search and a look."""
 SEARCH_MOVING, SEARCH_STILL = 0.2, 1.2
 """Seconds between two searches while something moves in reach of someone, and else."""
+SEARCH_MORE = 0.8
+"""Seconds after a search for the hands of someone, of whom one is followed: its arm moves, too."""
 PRESENT = 0.5
 """Least presence of a hand."""
 MISSES = 2
@@ -53,10 +55,11 @@ SAME = 0.35
 """Sides of their regions; nearer to each other, two hands are one."""
 MOST_EACH = 2
 MOST_CANDIDATES = 4
-RESTING = 0.2
-"""Seconds between two looks at a hand that shows nothing."""
+HELD, RESTING = 0.12, 0.2
+"""Seconds between two looks at a hand that is held still, and at one that shows nothing; one that
+moves is looked at in each picture."""
 MOVED = 0.05
-"""Sides of its region by which a hand moves that does not rest."""
+"""Sides of its region by which a hand is not still."""
 IN_VAIN = 0.6
 """Part of a movement that stays where hands were searched for in vain, to be searched again."""
 SIDES_KEPT = 0.7
@@ -82,12 +85,14 @@ class HandTrack:
     misses: int = 0
 
     @property
-    def is_resting(self) -> bool:
-        """Whether it shows nothing, and has not moved since it was looked at."""
-        if self.hand is None or self.hand.shape not in ("", FIST):
-            return False
+    def pause(self) -> float:
+        """Seconds that it need not be looked at."""
+        if self.hand is None:
+            return 0.0
         moved = self.places - self.hand.landmarks[list(FOLLOWED), :2]
-        return bool(np.abs(moved.mean(axis=0)).max() < MOVED * self.region.side)
+        if np.abs(moved.mean(axis=0)).max() > MOVED * self.region.side:
+            return 0.0
+        return RESTING if self.hand.shape in ("", FIST) else HELD
 
 
 class HandTracker:
@@ -165,15 +170,12 @@ class HandTracker:
             if search is not None:
                 self._saved -= SEARCH_COST
                 self._search(frame, here, *search)
-        due = sorted(filter(self._is_due, self._tracks), key=self._urgency, reverse=True)
+        due = [track for track in self._tracks if self._time - track.looked >= track.pause]
+        due.sort(key=self._urgency, reverse=True)
         for track in due[:1] if is_late else due:
             if self._saved >= LOOK_COST:
                 self._saved -= LOOK_COST
                 self._look(frame, track, here)
-
-    def _is_due(self, track: HandTrack) -> bool:
-        """Whether to look at a hand; one that rests is looked at less often."""
-        return not track.is_resting or self._time - track.looked >= RESTING
 
     def _next_search(
         self, image: Image, here: Sequence[Person], attended: str
@@ -193,6 +195,8 @@ class HandTracker:
             last, times = self._searched_for.get(person.id, (-math.inf, 0))
             part, moved = part_to_search(person.pose.box, self._movement, size, times)
             since = self._time - last
+            if known and since < SEARCH_MORE:
+                continue
             if moved > 0 or waited >= SEARCH_STILL:
                 order = (moved > 0, min(since, 60.0), person.id == attended)
                 if best is None or order > best[0]:
