@@ -301,9 +301,12 @@ class SimulatedCamera(InWorld, Camera):
         """What draws a picture of the people and things as they are now."""
         time = sequence / self._rate
         there = (person for person in self.world.people if person.is_present(time))
-        shown: list[Drawable] = [
-            looks for person in there if (looks := self._appearance(person, time))
-        ]
+        shown: list[Drawable] = []
+        for person in there:
+            if looks := self._appearance(person, time):
+                shown.append(looks)
+                if hand := person.hand(time):
+                    shown.append(self._optics.show_hand(person.actor, hand, looks))
         breadth = self.field_of_view + 2 * things.BEYOND
         for sighting in self.world.seen_items(self.pan(time), breadth, time):
             if (thing := things.appearance(sighting, self._optics)) is not None:

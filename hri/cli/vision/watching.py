@@ -34,6 +34,8 @@ VIEWS = 12.0, 140.0
 """Smallest and largest view in degrees; a wider one is a fisheye, which distorts the picture."""
 SHOW = (("nod", 2.0), ("look_aside", 5.0), ("shake", 8.0))
 """Actions of the simulated person, and their times in seconds."""
+HANDS = (("wave", 11.0), ("thumb_up", 15.0))
+"""What they show with a hand then."""
 FILM_RATE = 30.0
 """Frames per second of a written film."""
 MOST_REPEATS = 300
@@ -46,7 +48,11 @@ def add_source(parser: argparse.ArgumentParser) -> None:
     add("--video", type=Path, metavar="FILE", help="a video or an image")
     add("--images", type=Path, metavar="FOLDER", help="a folder of pictures, in order")
     add("--camera", metavar="N", help="a camera of this machine: 0, 1 ... or its path")
-    add("--simulated", action="store_true", help="a simulated person who nods and shakes the head")
+    add(
+        "--simulated",
+        action="store_true",
+        help="a simulated person who nods, shakes the head, waves, and holds a thumb up",
+    )
     add_view(parser)
 
 
@@ -84,6 +90,8 @@ def opened_camera(options: argparse.Namespace, clock: Clock) -> Iterator[Camera]
             person = resources.obtain("world", SimulatedWorld).person
             for name, at in SHOW:
                 person.move(name, at)
+            for name, at in HANDS:
+                person.show(name, at)
         yield camera
 
 

@@ -11,6 +11,8 @@ from hri.core.signals import Image
 from hri.simulation.people.appearance import DEFAULT_ACTOR, Looks
 from hri.simulation.people.backdrop import back_hair, body, room
 from hri.simulation.people.body_motion import Posture
+from hri.simulation.people.drawn_hand import DrawnHand
+from hri.simulation.people.hand_motion import HeldHand
 from hri.simulation.people.head import paint_head
 from hri.simulation.people.portrait import Mien
 
@@ -132,6 +134,8 @@ class Appearance:
 
 HEAD_HEIGHT = 0.24
 """Meters from chin to crown, of an adult."""
+PALM_WIDTH = 0.085
+"""Meters, of an adult."""
 NEAREST = 0.4
 """Meters; someone who is nearer leans back."""
 
@@ -172,6 +176,14 @@ class Optics:
             smile=held.smile,
             brows=held.brows,
         )
+
+    def show_hand(self, actor: str, held: HeldHand, of: Appearance) -> DrawnHand:
+        """The left hand of someone who looks so."""
+        meter = of.height / HEAD_HEIGHT
+        x, y = of.center
+        center = x + held.aside * meter, y + held.down * meter
+        palm, skin = PALM_WIDTH * meter, ACTORS[actor].skin
+        return DrawnHand(center, palm, of.height, held.straight, held.turn, skin=skin)
 
 
 class Drawable(Protocol):

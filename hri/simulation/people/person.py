@@ -18,6 +18,7 @@ from hri.hal.synthesizer import Synthesizer
 from hri.simulation.people import body_motion
 from hri.simulation.people.appearance import DEFAULT_ACTOR
 from hri.simulation.people.body_motion import MOTIONS, BodyMotion, Posture
+from hri.simulation.people.hand_motion import HAND_MOTIONS, HandMotion, HeldHand
 
 RADIUS = 0.22
 """Meters, of the place a standing person takes."""
@@ -46,6 +47,16 @@ class Movement:
 
     def at(self, time: float) -> Posture:
         return self.motion.at(time - self.start, self.seed)
+
+
+@dataclass(frozen=True, slots=True)
+class ShownHand:
+    """A hand that is raised at a time, held up for some seconds, and lowered."""
+
+    start: float
+    """Seconds."""
+    held: float
+    motion: HandMotion
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +124,7 @@ class SimulatedPerson:
         self._walks: list[tuple[float, bool]] = []
         self._ways: list[Way] = []
         self._movements: list[Movement] = []
+        self._shown: list[ShownHand] = []
         self._known: dict[str, Speech] = {}
 
     def rehearse(self, texts: Iterable[str]) -> None:
@@ -134,6 +146,17 @@ class SimulatedPerson:
         """Do something of `body_motion.MOTIONS`."""
         seed = self._seed + len(self._movements)
         self._movements.append(Movement(at, MOTIONS[name], seed))
+
+    def show(self, name: str, at: float, seconds: float = 2.0) -> None:
+        """Raise the left hand for something of `hand_motion.HAND_MOTIONS`, held so long."""
+        self._shown.append(ShownHand(at, seconds, HAND_MOTIONS[name]))
+
+    def hand(self, time: float) -> HeldHand | None:
+        """The left hand, where it shows something; None while it rests."""
+        for shown in reversed(self._shown):
+            if (held := shown.motion.at(time - shown.start, shown.held)) is not None:
+                return held
+        return None
 
     def nod(self, at: float) -> None:
         """Nod the head."""

@@ -26,7 +26,7 @@ Point = tuple[int, int]
 
 CALM, LOOKING, HIDDEN, GESTURE = (90, 160, 255), (80, 220, 120), (150, 150, 150), (255, 210, 60)
 """Red, green, blue of a person's marks: seen, looking at the robot, out of sight, and a gesture."""
-HAND: Color = (255, 160, 70)
+HAND: Color = (60, 230, 230)
 BONES = np.array([[0, root, root + 1, root + 2, root + 3] for root in range(1, 21, 4)])
 """Of each finger, the points of a hand from the wrist to its tip."""
 OBJECT: Color = (230, 120, 240)

@@ -83,8 +83,10 @@ class HandMemory:
             return False
         if len({look.fingers for look in fitting}) > 1 and row.shape == "any":
             return False
-        places = np.array([look.landmarks[MIDDLE, :2] for look in looks])
-        return bool(np.ptp(places, axis=0).max() <= row.still * size)
+        places = np.array([look.landmarks[[MIDDLE, TIP], :2] for look in looks])
+        knuckle, tip = np.ptp(places, axis=0).max(axis=1)
+        # A hand that waves turns about the wrist, from which the tip is twice as far away.
+        return bool(max(knuckle, tip / 2) <= row.still * size)
 
     def _last_swings(self, row: HandPattern) -> list[Swing]:
         return self._swings.swings()[-row.swings :]
