@@ -9,6 +9,7 @@ from benchmarks.vision import (
     cross_validation,
     crossing,
     far_faces,
+    markers,
     nods,
     objects,
     pose,
@@ -30,6 +31,7 @@ PARTS: Parts = {
     "nods": lambda quick: nods.rows(quick, WORKERS),
     "objects": objects.rows,
     "colors": colors.rows,
+    "markers": markers.rows,
     "films": lambda quick: videos.rows(quick, WORKERS),
 }
 """What `hri bench vision` measures in a checkout beside its own, in the order of the table."""

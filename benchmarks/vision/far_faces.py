@@ -113,7 +113,7 @@ def heads(detectors: Detectors) -> Iterator[Head]:
     """Those of the photographs whose faces are large enough."""
     assert detectors.mesh is not None
     for path in sorted(_folder().glob("*.jpg")):
-        image = _opened(path.name)
+        image = photograph(path.name)
         shrink = min(1.0, SEEN_SIDE / max(image.shape[:2]))
         size = round(image.shape[1] * shrink), round(image.shape[0] * shrink)
         image = np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8)
@@ -157,7 +157,7 @@ def _at(
 def _false(detectors: Detectors, count: int) -> Row:
     """People who are seen in parts of pictures without any."""
     draw = np.random.default_rng(SEED)
-    pictures = [_opened(name) for name in EMPTY]
+    pictures = [photograph(name) for name in EMPTY]
     seen = 0
     for number in progress(range(count), count, "empty pictures"):
         whole = pictures[number % len(pictures)]
@@ -178,11 +178,17 @@ def _cut(image: Image, x: float, y: float, breadth: float) -> Head:
 
 
 def _read(name: str) -> Image:
-    return np.asarray(cv2.resize(_opened(name), SIZE, interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(cv2.resize(photograph(name), SIZE, interpolation=cv2.INTER_AREA), np.uint8)
 
 
-def _opened(name: str) -> Image:
+def photograph(name: str) -> Image:
+    """Raises NotAvailable where there are no photographs."""
     return read_still(_folder() / name).image
+
+
+def photographs() -> list[str]:
+    """Names of all; none shows a marker."""
+    return sorted(path.name for path in _folder().iterdir() if path.suffix in (".jpg", ".png"))
 
 
 def _folder() -> Path:

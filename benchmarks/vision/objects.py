@@ -18,7 +18,7 @@ from benchmarks.vision.stamps import Stamp, generated, is_solid, read_stamps
 from hri.bench.figures import summary
 from hri.bench.table import Limit, Row, amount, at_least, at_most, share
 from hri.bench.threads import one_thread
-from hri.core.signals import FoundObject, Objects
+from hri.core.signals import FoundObject
 from hri.vision.objects.learning import scale_from_width, view_of
 from hri.vision.objects.local_features import ORB, SIFT
 from hri.vision.objects.model_file import load_models, save_models
@@ -200,7 +200,8 @@ def _memory() -> float:
 def _unknown(seconds: float) -> Iterator[Row]:
     """A film of rooms and of things that are in no set: nothing may be called by a name."""
     recognizer = ObjectRecognizer(_learned(_stamps()[:TIMED]), VIEW)
-    presence, events, pictures = ObjectPresence(), 0, 0
+    presence = ObjectPresence[FoundObject]()
+    events = pictures = 0
     count, dice = round(seconds * RATE), np.random.default_rng(SEED + 1)
     strangers = [*_stamps()[TIMED:], *_textured_and_others()[1]]
     dice.shuffle(strangers)
@@ -208,7 +209,7 @@ def _unknown(seconds: float) -> Iterator[Row]:
     for frame in progress(frames, count, "unknown objects"):
         objects = recognizer.recognize(frame.image)
         pictures += bool(objects)
-        events += len(presence.update(Objects(frame.time, objects))[0])
+        events += len(presence.update(frame.time, objects)[0])
     what = f"unknown objects and empty rooms, {seconds / 60:g} min of film: objects seen"
     yield amount(what, events, "events", at_most(0), pictures_with_a_name=pictures, of=count)
 

@@ -56,6 +56,7 @@ DATATYPES: dict[str, type] = {
     "people": signals.People,
     "objects": signals.Objects,
     "blobs": signals.ColorBlobs,
+    "markers": signals.Markers,
     "motion": signals.Motion,
     "twist": signals.Twist,
     "pose": signals.Pose2D,

@@ -16,10 +16,11 @@ Listener = Callable[[Event], object]
 
 # fmt: off
 OWN_SUBJECTS = frozenset((
-    "alarm", "battery", "behavior", "bumper", "button", "camera", "cliff", "drive", "emotion",
-    "emotions", "face", "gesture", "grammar", "hand", "head", "idle", "memory", "microphone",
-    "motion", "network", "object", "odometry", "person", "question", "recording", "replies",
-    "speech", "stimulus", "studio", "target", "task", "vision", "visitor", "window",
+    "alarm", "battery", "behavior", "bumper", "button", "camera", "card", "cliff", "drive",
+    "emotion", "emotions", "face", "gesture", "grammar", "hand", "head", "idle", "marker",
+    "memory", "microphone", "motion", "network", "object", "odometry", "person", "question",
+    "recording", "replies", "speech", "stimulus", "studio", "target", "task", "vision",
+    "visitor", "window",
 ))
 # fmt: on
 """What the robot's own events are about: the first word of their names."""

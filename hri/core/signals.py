@@ -605,6 +605,59 @@ class Objects:
 
 
 @dataclass(frozen=True, slots=True)
+class Marker:
+    """A printed marker that was found in a picture."""
+
+    family: str
+    """Such as "apriltag_36h11"; "qr" for a code with a text."""
+    id: int
+    """Of the marker in its family; -1 for a code with a text."""
+    outline: tuple[tuple[float, float], ...]
+    """Its four corners, pixels: the upper left one as it is printed, then clockwise."""
+    x: float
+    """Of its center, pixels from the left."""
+    y: float
+    """Pixels from the top."""
+    distance: float
+    """Meters from the camera to its center."""
+    bearing: float
+    """Radians from the robot's straight ahead to the left."""
+    elevation: float
+    """Radians from the robot's straight ahead up."""
+    tilt: float
+    """Radians between its normal and the line of sight; 0 when it faces the camera."""
+    point: tuple[float, float, float]
+    """Its center in the robot's axes, meters: x ahead, y left, z up."""
+    facing: tuple[float, float, float]
+    """Its normal in the robot's axes, of length 1, toward whoever reads it."""
+    is_sure: bool = True
+    """Whether it cannot be tilted as much to the other side: small and nearly from the front, both
+    look the same."""
+    text: str = ""
+    """Of a code: nothing in it is opened, looked up or obeyed."""
+
+    @property
+    def name(self) -> str:
+        """By which it is known again, such as "apriltag_36h11:7" and "qr:hello"."""
+        return f"{self.family}:{self.text if self.id < 0 else self.id}"
+
+    @property
+    def pose(self) -> Pose2D:
+        """On the robot's floor: where it is, and where it faces."""
+        x, y, _ = self.point
+        return Pose2D(x, y, math.atan2(self.facing[1], self.facing[0]))
+
+
+@dataclass(frozen=True, slots=True)
+class Markers:
+    """The markers of one picture, the nearest first."""
+
+    time: float
+    """Seconds, when the picture was taken."""
+    found: tuple[Marker, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Frame:
     """A picture from a camera."""
 

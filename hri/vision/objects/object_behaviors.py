@@ -92,7 +92,7 @@ class ObjRecRecognizer(Behavior):
         except HriError:
             self._give_back()  # a behavior that fails to start is not stopped
             raise
-        self._presence = ObjectPresence()
+        self._presence = ObjectPresence[FoundObject]()
         self._frame: Frame | None = None
         self.newest: Frame | None = None
         """The newest picture."""
@@ -161,7 +161,7 @@ class ObjRecRecognizer(Behavior):
     def _report(self, objects: Objects, now: float) -> None:
         self.last, self._reported = objects, now
         self.objects.send(objects)
-        come, gone = self._presence.update(objects)
+        come, gone = self._presence.update(objects.time, objects.found)
         for one in come:
             more = {} if math.isnan(one.distance) else {"distance": round(one.distance, 2)}
             self._events.raise_event(

@@ -3,8 +3,18 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
+from typing import Generic, Protocol, TypeVar
 
-from hri.core.signals import FoundObject, Objects
+
+class Named(Protocol):
+    """Something that is known again by its name."""
+
+    @property
+    def name(self) -> str: ...
+
+
+Found = TypeVar("Found", bound=Named)
 
 SEEN_IN, OF_PICTURES = 2, 3
 """An object has come when it is found in this many of this many pictures in a row."""
@@ -12,26 +22,29 @@ MEMORY = 2.0
 """Seconds after which an object that is not found again is gone."""
 
 
-class ObjectPresence:
-    """Reports objects that come and go, from those found in each picture."""
+class ObjectPresence(Generic[Found]):
+    """Reports objects or markers that come and go, from those found in each picture."""
 
     def __init__(self) -> None:
         self._recent: deque[frozenset[str]] = deque(maxlen=OF_PICTURES)
-        self._last: dict[str, tuple[float, FoundObject]] = {}
+        self._last: dict[str, tuple[float, Found]] = {}
 
-    def update(self, objects: Objects) -> tuple[list[FoundObject], list[str]]:
-        """Which have come with this picture, and the names of those that are gone."""
-        surest = {one.name: one for one in reversed(objects.found)}
+    def update(self, time: float, found: Sequence[Found]) -> tuple[list[Found], list[str]]:
+        """Which have come with the picture of this time, and the names of those that are gone.
+
+        Of several with the same name, the first counts.
+        """
+        surest = {one.name: one for one in reversed(found)}
         self._recent.append(frozenset(surest))
         come = []
         for name, one in surest.items():
             is_new = name not in self._last
             if is_new and sum(name in names for names in self._recent) < SEEN_IN:
                 continue
-            self._last[name] = objects.time, one
+            self._last[name] = time, one
             if is_new:
                 come.append(one)
-        return come, self.forget(objects.time)
+        return come, self.forget(time)
 
     def forget(self, now: float) -> list[str]:
         """The names of those that were not found for `MEMORY` seconds: they are gone."""
@@ -41,6 +54,6 @@ class ObjectPresence:
         return gone
 
     @property
-    def present(self) -> tuple[FoundObject, ...]:
+    def present(self) -> tuple[Found, ...]:
         """Those that are there, each as it was found last, in the order they came."""
         return tuple(one for _, one in self._last.values())

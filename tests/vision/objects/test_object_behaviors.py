@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hri.core.errors import HriError
-from hri.core.signals import FoundObject, Frame, Objects
+from hri.core.signals import FoundObject, Frame
 from hri.hal.camera import Camera
 from hri.hal.resource import Description
 from hri.simulation.world import SimulatedWorld
@@ -121,9 +121,9 @@ def test_an_object_that_is_missed_in_a_picture_is_still_there() -> None:
     presence = ObjectPresence()
     cup = FoundObject("cup", 1.0, 2.0, (), 0.9)
     pictures = [(cup,), (cup,), (), (cup,), (), ()]
-    told = [presence.update(Objects(0.5 * n, found)) for n, found in enumerate(pictures)]
+    told = [presence.update(0.5 * n, found) for n, found in enumerate(pictures)]
     assert told == [([], []), ([cup], []), *[([], [])] * 4]
-    assert presence.update(Objects(4.0)) == ([], ["cup"])
+    assert presence.update(4.0, ()) == ([], ["cup"])
     assert presence.present == ()
 
 
@@ -131,4 +131,4 @@ def test_what_is_seen_once_by_chance_has_not_come() -> None:
     presence = ObjectPresence()
     cup = FoundObject("cup", 1.0, 2.0, (), 0.9)
     for number in range(12):
-        assert presence.update(Objects(0.2 * number, (cup,) if number % 4 == 0 else ())) == ([], [])
+        assert presence.update(0.2 * number, (cup,) if number % 4 == 0 else ()) == ([], [])
