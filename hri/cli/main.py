@@ -44,6 +44,7 @@ COMMANDS = {
     ),
     "color": ("hri.cli.color", "teach colors and find them in pictures"),
     "object": ("hri.cli.object", "teach objects and recognize them in pictures"),
+    "marker": ("hri.cli.marker", "print cards with markers and find them in pictures"),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
     "token": ("hri.cli.token", "print the token with which other programs may move the robot"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),

@@ -9,6 +9,7 @@ import pytest
 from hri.behavior.behavior import Context
 from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
+from hri.cli.marker import COMMANDS
 from hri.core.clock import FakeClock
 from hri.core.event_bus import EventBus
 from hri.core.signals import Marker
@@ -58,3 +59,7 @@ def test_the_page_names_each_field_of_a_marker(name):
 
 def test_the_program_of_the_page_runs():
     exec(block("python"), {})
+
+
+def test_the_page_names_each_command():
+    assert {row.split()[2] for row in rows("command")} == set(COMMANDS)
