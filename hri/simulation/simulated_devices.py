@@ -308,8 +308,9 @@ class SimulatedCamera(InWorld, Camera):
                 if hand := person.hand(time):
                     shown.append(self._optics.show_hand(person.actor, hand, looks))
         breadth = self.field_of_view + 2 * things.BEYOND
+        looking = self.world.base.pose.heading + self.pan(time)
         for sighting in self.world.seen_items(self.pan(time), breadth, time):
-            if (thing := things.appearance(sighting, self._optics)) is not None:
+            if (thing := things.appearance(sighting, self._optics, looking)) is not None:
                 shown.append(thing)
         optics, lens = self._optics, self._lens
         heading = round(self.world.base.pose.heading + self.pan(time), HEADING_DIGITS)

@@ -10,17 +10,22 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from hri.core.geometry import Matrix
 from hri.core.signals import Image
 from hri.hal.drivers.still_image import read_still
 from hri.simulation.object_visibility import Sighting
 from hri.simulation.people.actors import HEAD_HEIGHT, NEAREST, Optics
 from hri.simulation.world_file import COLORS, Item
+from hri.vision.markers.families import DEFAULT, FAMILIES
 from hri.vision.objects.printed_label import printed_label
 
 LIGHT = (-0.35, -0.4)
 """Where a ball shines, in its radii from its middle."""
 BEYOND = 0.6
 """Radians to each side of the view in which a thing may be whose edge is in the picture."""
+CELL, SAMPLES = 8, 4
+"""Pixels of a marker's cell as it is drawn, and samples of a pixel to each side."""
+PAPER, INK = 225.0, 25.0
 SHIFT = 4
 """Bits after the point of the coordinates that OpenCV draws with."""
 
@@ -36,17 +41,41 @@ class ThingAppearance:
     """Pixels."""
     height: float
     """Of a head at its distance, pixels: what is smaller is farther away."""
+    turn: float = 0.0
+    """Radians by which a card is turned to its left from facing the camera."""
+    distance: float = 1.0
+    """Meters ahead of the camera."""
 
     def paint(self, image: Image) -> None:
         """Draw it into a picture."""
-        if self.item.color:
+        if self.item.marker is not None:
+            self._paint_card(image, self.item.marker)
+        elif self.item.color:
             _paint_ball(image, self.center, self.width / 2, COLORS[self.item.color])
         else:
             _paint_flat(image, self.center, self.width, _look(self.item.name, self.item.picture))
 
+    def _paint_card(self, image: Image, id: int) -> None:
+        """A marker with a white cell around, in perspective."""
+        family = FAMILIES[DEFAULT]
+        look = np.kron(family.cells(id), np.full((CELL, CELL), PAPER - INK)) + INK
+        half = self.item.width / 2 * (family.width + 2) / family.width
+        focal = self.width / self.item.width * self.distance
+        ends = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
+        away = self.distance + ends[:, 0] * math.sin(self.turn)
+        if away.min() <= NEAREST / 4:
+            return
+        middle = (np.array(self.center) - (image.shape[1] / 2, image.shape[0] / 2)) / focal
+        across = middle[0] * self.distance + ends[:, 0] * math.cos(self.turn)
+        corners = np.stack([across, middle[1] * self.distance + ends[:, 1]], axis=1)
+        pixels = focal * corners / away[:, None] + (image.shape[1] / 2, image.shape[0] / 2)
+        _paint_turned(image, np.dstack([look] * 3), pixels)
 
-def appearance(sighting: Sighting, optics: Optics) -> ThingAppearance | None:
-    """How a thing looks to a camera; None for one that is beside or behind it."""
+
+def appearance(sighting: Sighting, optics: Optics, looking: float = 0.0) -> ThingAppearance | None:
+    """How a thing looks to a camera; None for one that is beside or behind it, and for a card that
+    turns its back. `looking` is where the camera looks in the room, radians.
+    """
     ahead = sighting.distance * math.cos(sighting.bearing)
     if ahead <= 0:
         return None
@@ -54,7 +83,13 @@ def appearance(sighting: Sighting, optics: Optics) -> ThingAppearance | None:
     meter = focal / max(NEAREST / 2, ahead)
     right = -sighting.distance * math.sin(sighting.bearing)
     center = optics.width / 2 + right * meter, optics.height / 2
-    return ThingAppearance(sighting.item, center, sighting.item.width * meter, HEAD_HEIGHT * meter)
+    item, away = sighting.item, max(NEAREST / 2, ahead)
+    turn = (
+        0.0 if item.heading is None else math.remainder(item.heading - looking - math.pi, math.tau)
+    )
+    if item.marker is not None and right * math.sin(turn) >= ahead * math.cos(turn):
+        return None
+    return ThingAppearance(item, center, item.width * meter, HEAD_HEIGHT * meter, turn, away)
 
 
 @lru_cache(maxsize=64)
@@ -73,6 +108,22 @@ def _paint_flat(image: Image, center: tuple[float, float], width: float, look: I
     place = np.array([[scale, 0, left], [0, scale, top]], np.float64)
     size = image.shape[1], image.shape[0]
     cv2.warpAffine(look, place, size, image, cv2.INTER_LINEAR, cv2.BORDER_TRANSPARENT)
+
+
+def _paint_turned(image: Image, look: Matrix, pixels: Matrix) -> None:
+    """A drawing whose corners are there, each pixel the mean of what it sees."""
+    low = np.maximum(np.floor(pixels.min(axis=0)).astype(int) - 1, 0)
+    high = np.minimum(np.ceil(pixels.max(axis=0)).astype(int) + 1, image.shape[1::-1])
+    if (high <= low).any():
+        return
+    size, large = len(look), [int(side) * SAMPLES for side in high - low]
+    ends = np.array([(0, 0), (size, 0), (size, size), (0, size)], np.float32) - 0.5
+    warp = cv2.getPerspectiveTransform(ends, ((pixels - low) * SAMPLES - 0.5).astype(np.float32))
+    small = [int(side) for side in high - low]
+    drawn = np.dstack([look, np.ones(look.shape[:2])]).astype(np.float32)
+    seen = cv2.resize(cv2.warpPerspective(drawn, warp, large), small, interpolation=cv2.INTER_AREA)
+    part = slice(low[1], high[1]), slice(low[0], high[0])
+    image[part] = np.rint(image[part] * (1 - seen[..., 3:]) + seen[..., :3]).astype(np.uint8)
 
 
 def _paint_ball(

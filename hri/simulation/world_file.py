@@ -16,6 +16,8 @@ from hri.simulation.people.actors import ACTORS
 from hri.simulation.people.appearance import DEFAULT_ACTOR
 from hri.simulation.people.person import RADIUS
 from hri.simulation.room import Box, Circle, Obstacle, Room, Wall
+from hri.vision.markers.families import DEFAULT, FAMILIES
+from hri.vision.markers.marker_reader import SIDE
 from hri.vision.objects.printed_label import WIDTH
 
 KIND = "config/worlds"
@@ -77,6 +79,10 @@ class Item:
     """What it looks like; without one it has a label with its name."""
     color: str = ""
     """Of a ball, a key of `COLORS`; a thing that is not a ball has none."""
+    marker: int | None = None
+    """Id of the AprilTag 36h11 on a card; `width` is that of its black square."""
+    heading: float | None = None
+    """Where a card faces in the room, radians; one without it is turned to the camera."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +139,10 @@ def _obstacles(root: Table) -> list[Obstacle]:
 def _item(table: Table) -> Item:
     x, y = _point(table, "at")
     name, picture = str(table.string("name")), str(table.string("picture", ""))
-    width = float(table.number("width", WIDTH, minimum=_SMALLEST, maximum=3.0))
+    marker = _marker(table) if "marker" in table else None
+    usual = WIDTH if marker is None else SIDE
+    width = float(table.number("width", usual, minimum=_SMALLEST, maximum=3.0))
+    heading = _angle(table, "heading") if "heading" in table and marker is not None else None
     color = str(table.string("color", ""))
     if color and color not in COLORS:
         raise table.error("color", f'unknown color "{color}"', did_you_mean(color, COLORS))
@@ -141,7 +150,16 @@ def _item(table: Table) -> Item:
     if path is not None and (not paths.is_file(path) or picture_size(path) is None):
         raise table.error("picture", f"{path} is not a picture", "name a JPEG or PNG beside it")
     table.finish()
-    return Item(name, x, y, width, path, color)
+    return Item(name, x, y, width, path, color, marker, heading)
+
+
+def _marker(table: Table) -> int:
+    """The id of a marker. Raises AuthoringError for one that there is not."""
+    id, last = float(table.number("marker")), FAMILIES[DEFAULT].count - 1
+    if not (id.is_integer() and 0 <= id <= last):
+        remedy = f"write a whole number from 0 to {last}"
+        raise table.error("marker", f"marker is {id:g}", remedy)
+    return int(id)
 
 
 def _drop(table: Table) -> Circle:
