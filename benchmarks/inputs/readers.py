@@ -172,6 +172,11 @@ READERS: dict[str, Reader] = {
     "visit": _named(
         "hri.simulation.visit_script:load_visit", _shipped("apps/*/demo.toml"), "visit.toml"
     ),
+    "table of cards": _named(
+        "hri.vision.markers.card_table:load_cards",
+        _shipped("apps/*/skills/*/cards.toml"),
+        "cards.toml",
+    ),
     "weights of the recognizer": _named(
         "hri.speech.recognizers.ctc.weights:read_tensors", good.tensors, "a.npz", is_text=False
     ),

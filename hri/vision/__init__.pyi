@@ -7,6 +7,9 @@ from .camera_view import CameraView as CameraView
 from .gestures.gesture_behaviors import HeadGestures as HeadGestures
 from .hands.hand_behaviors import HandGestures as HandGestures
 from .head_pose import head_pose as head_pose
+from .markers.card_table import load_cards as load_cards
+from .markers.marker_behaviors import MarkerFinder as MarkerFinder
+from .markers.marker_reader import MarkerReader as MarkerReader
 from .naming import FaceNames as FaceNames
 from .objects.learning import ObjectLearner as ObjectLearner
 from .objects.model_file import load_models as load_models, save_models as save_models

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 
-from hri.cli.marker import find, list, print
+from hri.cli.marker import check, find, list, print
 
 COMMANDS = {
     "print": (print, "write a card with a marker or a QR code, to be printed"),
     "find": (find, "find markers in pictures: which, how far, and how they are turned"),
     "list": (list, "list the families of markers"),
+    "check": (check, "check a table of cards, and list what each starts"),
 }
 """Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 
