@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from hri.core.clock import Worker
-from hri.core.geometry import placed
+from hri.core.geometry import placed, wrapped
 from hri.core.signals import Frame, Pose2D, RangeReading, Samples, Twist
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
@@ -329,8 +329,18 @@ class SimulatedCamera(InWorld, Camera):
         ahead, right = distance * math.cos(turn), distance * math.sin(turn)
         if ahead <= 0:
             return None
-        held, lids = person.posture(time), person.lids(time)
-        return self._optics.show(person.actor, held, right + person.aside(time), ahead, lids)
+        pose, (x, y) = self.world.base.pose, person.place(time)
+        robot = math.atan2(pose.y - y, pose.x - x)
+        turned = wrapped(person.facing(time, robot) - robot)
+        return self._optics.show(
+            person.actor,
+            held,
+            right + person.aside(time),
+            ahead,
+            person.lids(time),
+            turned,
+            person.outfit,
+        )
 
 
 def _parameters(description: Description) -> tuple[float, ...]:

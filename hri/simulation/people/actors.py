@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from hri.core.signals import Image
-from hri.simulation.people.appearance import DEFAULT_ACTOR, Looks
-from hri.simulation.people.backdrop import back_hair, body, room
+from hri.simulation.people.appearance import DEFAULT_ACTOR, Looks, Outfit
+from hri.simulation.people.backdrop import STRIDES, back_hair, body, room
 from hri.simulation.people.body_motion import Posture
 from hri.simulation.people.drawn_hand import DrawnHand
 from hri.simulation.people.hand_motion import HeldHand
@@ -119,23 +119,45 @@ class Appearance:
     """0 to 1."""
     brows: float = 0.0
     """-1 drawn together and down, 0 at rest, 1 raised."""
+    turn: float = 0.0
+    """How far body and head are turned to the person's left, radians; pi shows the back."""
+    stride: float = 0.0
+    """How far the left leg is before the right one, -1 to 1."""
+    outfit: Outfit | None = None
+    """What they wear, if not what the actor does."""
 
     def paint(self, image: Image) -> None:
         """Draw them into a picture."""
-        looks, scale = ACTORS[self.actor], self.height / 2
+        looks, yaw = ACTORS[self.actor], self.yaw + self.turn
+        is_away = math.cos(self.turn) < 0
+        if not is_away:
+            self._paint_hair(image, looks, yaw)
+        aside = abs(math.sin(self.turn))
+        stride = round(STRIDES * min(1.0, max(-1.0, self.stride)))
+        clothed = body(looks, self.outfit, stride, aside > ASIDE)
+        wide = math.hypot(math.cos(self.turn), DEPTH * aside)
+        clothed.on(image, self.center, self.height / 2, 0.0, wide)
+        if is_away:
+            self._paint_hair(image, looks, yaw)
+        mien = Mien.of(self.mouth, self.lids, self.smile, self.brows)
+        paint_head(image, looks, mien, (self.pitch, yaw, self.roll), self.center, self.height)
+
+    def _paint_hair(self, image: Image, looks: Looks, yaw: float) -> None:
         if looks.hair_length:
             # It hangs on the head, so it swings to the side where the face does not look.
-            x = self.center[0] - 0.25 * scale * math.sin(self.yaw)
+            scale = self.height / 2
+            x = self.center[0] - 0.25 * scale * math.sin(yaw)
             back_hair(looks).on(image, (x, self.center[1]), scale, self.roll)
-        body(looks).on(image, self.center, scale, 0.0)
-        mien = Mien.of(self.mouth, self.lids, self.smile, self.brows)
-        paint_head(image, looks, mien, (self.pitch, self.yaw, self.roll), self.center, self.height)
 
 
 HEAD_HEIGHT = 0.24
 """Meters from chin to crown, of an adult."""
 PALM_WIDTH = 0.085
 """Meters, of an adult."""
+DEPTH = 0.62
+"""Of a body from front to back, as a part of its breadth."""
+ASIDE = 0.5
+"""Sine of a turn from which on legs are seen from the side."""
 NEAREST = 0.4
 """Meters; someone who is nearer leans back."""
 
@@ -156,9 +178,19 @@ class Optics:
         return self.width, self.height
 
     def show(
-        self, actor: str, held: Posture, right: float, distance: float, lids: float = 1.0
+        self,
+        actor: str,
+        held: Posture,
+        right: float,
+        distance: float,
+        lids: float = 1.0,
+        turn: float = 0.0,
+        outfit: Outfit | None = None,
     ) -> Appearance:
-        """Appearance of a person at a place in meters, ahead and to the right, at eye level."""
+        """Appearance of a person at a place in meters, ahead and to the right, at eye level.
+
+        `turn` and `outfit` are those of `Appearance`.
+        """
         focal = self.width / 2 / math.tan(self.field_of_view / 2)
         meter = focal / max(NEAREST, distance - held.nearer)
         return Appearance(
@@ -175,6 +207,9 @@ class Optics:
             lids=lids,
             smile=held.smile,
             brows=held.brows,
+            turn=turn,
+            stride=held.stride,
+            outfit=outfit,
         )
 
     def show_hand(self, actor: str, held: HeldHand, of: Appearance) -> DrawnHand:

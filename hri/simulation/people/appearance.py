@@ -14,6 +14,16 @@ DEFAULT_ACTOR = "ada"
 
 
 @dataclass(frozen=True, slots=True)
+class Outfit:
+    """Clothes."""
+
+    shirt: Color
+    trousers: Color = (58, 58, 70)
+    stripes: float = 0.0
+    """How much darker every other stripe of the shirt is, 0 for a plain one to 1."""
+
+
+@dataclass(frozen=True, slots=True)
 class Looks:
     """One person's head and clothes. Everything that is a factor is about 1."""
 

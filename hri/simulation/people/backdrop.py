@@ -9,12 +9,15 @@ from functools import lru_cache
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from hri.core.signals import Image
-from hri.simulation.people.appearance import Looks
+from hri.simulation.people.appearance import Looks, Outfit
 from hri.simulation.people.soft_edges import Color, Field, Point, filled
 
 Outline = tuple[Point, ...]
+Drawn = Outline | tuple[Outline, Outline]
+"""The left half of what is even, or the outlines of two parts."""
 
 NECK: Outline = ((-0.38, 0.3), (-0.40, 1.15), (-0.62, 1.36), (0.0, 1.62))
 SHIRT: Outline = (
@@ -37,7 +40,14 @@ TROUSERS: Outline = (
     (0.0, 7.4),
 )
 """The left half of the outlines, in half heads from the middle of the head."""
-TROUSERS_COLOR = np.array((58, 58, 70), np.float32)
+HIPS = 7.0
+"""How far down the legs begin to swing."""
+LIFT, SWING = 0.5, 2.2
+"""Half heads by which a foot goes up, and to the side as seen from there, in a stride."""
+STRIDES = 2
+"""Steps between standing and the widest stride."""
+STRIPE = 0.5
+"""Half heads from one stripe of a shirt to the next."""
 
 SPRITE_DENSITY = 48
 """Points of the drawn body to a half head."""
@@ -142,15 +152,25 @@ class Sprite:
     color: Image
     through: Image
 
-    def on(self, image: Image, center: tuple[float, float], scale: float, roll: float) -> None:
-        """Lay it on the picture, turned about the middle of the head; pixels, half heads."""
+    def on(
+        self,
+        image: Image,
+        center: tuple[float, float],
+        scale: float,
+        roll: float,
+        wide: float = 1.0,
+    ) -> None:
+        """Lay it on the picture, turned about the middle of the head; pixels, half heads.
+
+        `wide` is a factor of its breadth.
+        """
         grow = scale / SPRITE_DENSITY
         cos, sin = grow * math.cos(roll), grow * math.sin(roll)
         x, y = -SPRITE_LEFT * SPRITE_DENSITY, -SPRITE_TOP * SPRITE_DENSITY
         way = np.array(
             [
-                [cos, -sin, center[0] - cos * x + sin * y],
-                [sin, cos, center[1] - sin * x - cos * y],
+                [wide * cos, -sin, center[0] - wide * cos * x + sin * y],
+                [wide * sin, cos, center[1] - wide * sin * x - cos * y],
             ],
         )
         height, width = image.shape[:2]
@@ -168,19 +188,48 @@ class Sprite:
         part[:] = cv2.add(cv2.multiply(part, through, scale=1 / 255), color)
 
 
-@lru_cache(maxsize=16)
-def body(looks: Looks) -> Sprite:
-    """Neck, shirt and trousers."""
+@lru_cache(maxsize=64)
+def body(
+    looks: Looks, outfit: Outfit | None = None, stride: int = 0, is_aside: bool = False
+) -> Sprite:
+    """Neck, shirt and trousers, those of the looks without an outfit.
+
+    `stride` is how far the left leg is ahead, -STRIDES to STRIDES; `is_aside`: seen from the side.
+    """
+    clothes = outfit or Outfit(looks.shirt)
     x, y = _plane()
     turned_away = np.clip(1.05 - 0.10 * x - 0.05 * x * x, 0.3, 1.1)
     below_chin = 0.5 + 0.5 * np.clip((y - 0.75) / 0.5, 0, 1)
     return _sprite(
         (
             (NECK, np.array(looks.skin, np.float32) * below_chin * turned_away),
-            (TROUSERS, TROUSERS_COLOR * turned_away),
-            (SHIRT, np.array(looks.shirt, np.float32) * turned_away),
+            (_legs(stride / STRIDES, is_aside), np.array(clothes.trousers) * turned_away),
+            (SHIRT, np.array(clothes.shirt) * turned_away * _stripes(y, clothes.stripes)),
         )
     )
+
+
+def _legs(stride: float, is_aside: bool) -> Drawn:
+    """Both legs, the left one of the picture first, then the right one."""
+    if not stride:
+        return TROUSERS
+    legs = []
+    for side in (-1, 1):
+        ahead = side * stride
+        swing, lift = (SWING * ahead, 0.0) if is_aside else (0.0, LIFT * max(0.0, ahead))
+        legs.append(
+            tuple(
+                (-side * x + swing * part, y - lift * part)
+                for x, y in TROUSERS
+                for part in [max(0.0, y - HIPS) / (TROUSERS[-2][1] - HIPS)]
+            )
+        )
+    return legs[0], legs[1]
+
+
+def _stripes(y: Field, depth: float) -> Field:
+    stripes: Field = 1 - depth * (np.sin(2 * math.pi / STRIPE * y) > 0)
+    return stripes
 
 
 @lru_cache(maxsize=16)
@@ -202,16 +251,22 @@ def _plane() -> tuple[Field, Field]:
     return x[None, :, None], y[:, None, None]
 
 
-def _sprite(parts: tuple[tuple[Outline, Field], ...]) -> Sprite:
+def _sprite(parts: tuple[tuple[Drawn, Field], ...]) -> Sprite:
     x, y = _plane()
     shape = (y.shape[0], x.shape[1], 3)
     color, through = np.zeros(shape, np.float32), np.ones(shape, np.float32)
-    for outline, paint in parts:
-        whole = np.array([*outline, *((-px, py) for px, py in reversed(outline))])
-        points = (whole - (SPRITE_LEFT, SPRITE_TOP)) * SPRITE_DENSITY
-        cover = filled(shape, [points], 0.8)[..., None]
+    for drawn, paint in parts:
+        points = [(whole - (SPRITE_LEFT, SPRITE_TOP)) * SPRITE_DENSITY for whole in _wholes(drawn)]
+        cover = filled(shape, points, 0.8)[..., None]
         color += (paint - color) * cover
         through *= 1 - cover
     return Sprite(
         np.clip(color, 0, 255).astype(np.uint8), np.clip(255 * through, 0, 255).astype(np.uint8)
     )
+
+
+def _wholes(drawn: Drawn) -> list[NDArray[np.float64]]:
+    """The whole outlines."""
+    if isinstance(drawn[0][0], tuple):
+        return [np.array(outline, np.float64) for outline in drawn]
+    return [np.array([*drawn, *((-x, y) for x, y in reversed(drawn))], np.float64)]

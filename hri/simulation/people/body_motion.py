@@ -60,6 +60,8 @@ class Posture:
     """0 to 1."""
     brows: float = 0.0
     """-1 drawn together to 1 raised."""
+    stride: float = 0.0
+    """How far the left leg is before the right one, -1 to 1."""
 
     def __add__(self, other: Posture) -> Posture:
         return Posture(
@@ -72,6 +74,7 @@ class Posture:
             self.mouth + other.mouth,
             self.smile + other.smile,
             self.brows + other.brows,
+            self.stride + other.stride,
         )
 
 
@@ -192,7 +195,7 @@ def walk(time: float, seed: int = 0) -> Posture:
 
 
 def steps(time: float, part: float = 1.0, seed: int = 0) -> Posture:
-    """What walking does to the head; `part` from 0 at rest to 1."""
+    """What walking does to head and legs; `part` from 0 at rest to 1."""
     phase = 2 * math.pi * STEPS_HZ * _dice(seed).uniform(0.9, 1.1) * time
     return Posture(
         pitch=math.radians(0.9) * math.sin(phase + 0.6) * part,
@@ -200,6 +203,7 @@ def steps(time: float, part: float = 1.0, seed: int = 0) -> Posture:
         roll=math.radians(1.2) * math.sin(phase / 2 + 1.0) * part,
         right=0.015 * math.sin(phase / 2) * part,
         down=BOB * math.sin(phase) * part,
+        stride=math.sin(phase / 2) * part,
     )
 
 

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hri.core.geometry import wrapped
 from hri.core.signals import HeadPose, Speech
 from hri.hal.synthesizer import Synthesizer
 from hri.simulation.people import body_motion
-from hri.simulation.people.appearance import DEFAULT_ACTOR
+from hri.simulation.people.appearance import DEFAULT_ACTOR, Outfit
 from hri.simulation.people.body_motion import MOTIONS, BodyMotion, Posture
 from hri.simulation.people.hand_motion import HAND_MOTIONS, HandMotion, HeldHand
 
@@ -28,6 +29,8 @@ WALK_WAY = 1.0
 """Meters between the person's place and where they are out of view."""
 SPEED = 0.7
 """Meters a second of someone who comes nearer or steps back."""
+TURN_TIME = 0.7
+"""Seconds in which someone turns to where they walk."""
 PAUSE = 0.3
 """Seconds between two sentences that were asked for at the same time."""
 
@@ -61,20 +64,30 @@ class ShownHand:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A way through the room, at the speed of a walk."""
+    """A way through the room."""
 
     start: float
     """Seconds."""
     origin: tuple[float, float]
     goal: tuple[float, float]
+    speed: float = SPEED
+    """Meters a second, in the mean."""
+    looks_ahead: bool = False
+    """Whether they turn to where they go, and go on from there at the same pace."""
 
     @property
     def duration(self) -> float:
-        return math.dist(self.origin, self.goal) / SPEED
+        return math.dist(self.origin, self.goal) / self.speed
+
+    @property
+    def heading(self) -> float:
+        """Radians, in the room."""
+        return math.atan2(self.goal[1] - self.origin[1], self.goal[0] - self.origin[0])
 
     def at(self, time: float) -> tuple[float, float]:
         (x, y), (to_x, to_y), duration = self.origin, self.goal, self.duration
-        part = body_motion.eased((time - self.start) / duration) if duration else 1.0
+        part = (time - self.start) / duration if duration else 1.0
+        part = min(1.0, part) if self.looks_ahead else body_motion.eased(part)
         return x + (to_x - x) * part, y + (to_y - y) * part
 
 
@@ -117,6 +130,8 @@ class SimulatedPerson:
         `actors.ACTORS`). Without a synthesizer the person cannot speak."""
         self.x, self.y = x, y
         self.name, self.actor = name, actor
+        self.outfit: Outfit | None = None
+        """What they wear, if not what the actor does."""
         self.spoken: list[Spoken] = []
         self._synthesizer = synthesizer
         self._seed = seed
@@ -170,9 +185,25 @@ class SimulatedPerson:
         """Glance to the side and back."""
         self.move("look_aside", at)
 
-    def go(self, x: float, y: float, at: float) -> None:
-        """Walk to another place of the room."""
-        self._ways.append(Way(at, self.place(at), (x, y)))
+    def go(
+        self, x: float, y: float, at: float, *, speed: float = SPEED, looks_ahead: bool = False
+    ) -> float:
+        """Walk to another place of the room; when they are there, seconds.
+
+        They face the robot meanwhile, or with `looks_ahead` turn to where they go, and stay so.
+        """
+        self._ways.append(Way(at, self.place(at), (x, y), speed, looks_ahead))
+        return at + self._ways[-1].duration
+
+    def facing(self, time: float, robot: float) -> float:
+        """Radians in the room: where their body faces; `robot` is the direction to the robot."""
+        heading = robot
+        for way in self._ways:
+            if way.start <= time and way.duration:
+                goal = way.heading if way.looks_ahead else robot
+                part = body_motion.eased((time - way.start) / TURN_TIME)
+                heading += wrapped(goal - heading) * part
+        return heading
 
     def place(self, time: float) -> tuple[float, float]:
         """Where they stand, or would if they were there: x and y, meters."""

@@ -8,6 +8,7 @@ import pytest
 
 from hri.core.signals import Image
 from hri.simulation.people.actors import ACTORS, Appearance, Optics, render_people
+from hri.simulation.people.appearance import Outfit
 from hri.simulation.people.body_motion import Posture
 from hri.simulation.people.lens import Lens
 
@@ -118,3 +119,34 @@ def test_each_fault_does_what_it_says() -> None:
     assert all(apart(picture, moved) > 0 for moved in trembling)
     assert picture.shape == trembling[0].shape
     assert picture.dtype == trembling[0].dtype
+
+
+def test_someone_who_turns_away_shows_hair_and_a_back_and_is_narrower_from_the_side() -> None:
+    size = (320, 240)
+    bare = render_people([], size)
+    widths = {}
+    for degrees in (0, 90, 180):
+        shown = Appearance(center=(160, 60), height=60.0, turn=math.radians(degrees))
+        picture = render_people([shown], size)
+        covered = (picture != bare).any(axis=2)
+        widths[degrees] = int(covered[170].sum())
+        if degrees == 180:
+            hair = picture[55:65, 155:165].reshape(-1, 3).mean(axis=0)
+            assert np.abs(hair - ACTORS["ada"].hair).max() < 40
+    assert widths[180] == widths[0]
+    assert widths[90] < 0.75 * widths[0]
+
+
+def test_legs_part_with_a_stride_and_clothes_are_those_of_the_outfit() -> None:
+    size = (320, 240)
+    outfit = Outfit((200, 40, 40), (30, 160, 40))
+    stands, walks = (
+        render_people([Appearance(center=(160, 40), height=28.0, turn=1.6, stride=s, outfit=outfit)])
+        for s in (0.0, 1.0)
+    )
+    assert stands.shape[:2] == size[::-1]
+    assert (np.abs(stands[80:90, 158:162].astype(int) - (200, 40, 40)) < 30).all()
+    green = (stands[..., 1] > stands[..., 0].astype(int) + 60)[200:225].sum(axis=1)
+    apart = walks[200:225, :, 1] > walks[200:225, :, 0].astype(int) + 60
+    assert green.max() > 0
+    assert np.ptp(np.nonzero(apart)[1]) > 1.5 * green.max()

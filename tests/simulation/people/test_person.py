@@ -91,3 +91,22 @@ def test_the_eyes_blink_now_and_then() -> None:
     lids = [person.lids(time / 50) for time in range(60 * 50)]
     assert min(lids) < 0.2
     assert sum(lids) / len(lids) == pytest.approx(1.0, abs=0.05)
+
+
+def test_whoever_looks_ahead_turns_to_where_they_go_and_stays_so() -> None:
+    person = SimulatedPerson()
+    there = person.go(3.0, 0.0, at=1.0, speed=0.5, looks_ahead=True)
+    assert there == pytest.approx(7.0)
+    robot = math.pi
+    assert person.facing(0.9, robot) == robot
+    assert abs(person.facing(3.0, robot)) == pytest.approx(0.0, abs=1e-6)
+    assert abs(person.facing(20.0, robot)) == pytest.approx(0.0, abs=1e-6)
+    assert person.place(4.0) == pytest.approx((1.5, 0.0))
+    assert person.posture(4.0).stride != 0
+
+
+def test_whoever_does_not_faces_the_robot() -> None:
+    person = SimulatedPerson()
+    person.go(3.0, 0.0, at=1.0)
+    for time in (0.0, 2.0, 20.0):
+        assert person.facing(time, 0.7) == pytest.approx(0.7)
