@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 
+from hri.core import Event
 from hri.drive import navigation_tasks
 from hri.robot import verbs
 from hri.task import TaskContext, immediate
@@ -57,8 +58,20 @@ def follow(context: TaskContext) -> str | None:
 
 
 async def _go_along(context: TaskContext, companion: Companion) -> None:
-    if companion.person() is None or not await navigation_tasks.follow(context):
-        companion.tell("nobody")
+    said: list[float] = []
+
+    def lose(event: Event) -> None:
+        """Say it as soon as they are out of sight, and not each time."""
+        if not said:
+            said.append(event.time)
+            companion.tell("lost")
+
+    lost = context.events.subscribe("target.lost", lose)
+    try:
+        if companion.person() is None or not await navigation_tasks.follow(context):
+            companion.tell("nobody")
+    finally:
+        lost.cancel()
 
 
 @immediate

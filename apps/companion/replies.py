@@ -168,6 +168,7 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
     "near": ('I almost got that. Try "{nearest}".',),
     "told": ("Mm-hm. Go on, I'm listening.",),
     "noted": ("I see.",),
+    "lost": ("I can't see you anymore. I'm looking for you.",),
     "corrected": ("Oh, okay. My mistake.",),
     "introduced": ("Nice to meet you, {person}.",),
     "told_of": ("{echo}? Tell me more.",),

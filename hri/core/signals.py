@@ -461,6 +461,13 @@ class Person:
     """The person's name, when a face recognizer knows it."""
     hands: tuple[Hand, ...] = ()
     """Those that are followed, at most two; none without the networks of hands."""
+    since: float = math.nan
+    """Seconds, when they came into sight; NaN when unknown."""
+    has_face: bool = True
+    """False while only their body is in sight: place and distance are then those of the body, the
+    pose is as it was last, without a box, and there are no landmarks."""
+    body: FaceBox | None = None
+    """While only the body is in sight: from crown to feet, which may lie outside of the picture."""
 
 
 @dataclass(frozen=True, slots=True)

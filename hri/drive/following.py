@@ -8,6 +8,7 @@ which it went out of sight. Meters, radians, seconds.
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import dataclass
 from enum import Enum
 
@@ -109,6 +110,8 @@ class Following:
         self._turned = 0.0
         self._last: tuple[float, float] | None = None
         self._spot: Pose2D | None = None
+        self._poses: deque[tuple[float, Pose2D]] = deque()
+        """Where the robot was lately, with the seconds."""
 
     def see(self, now: float, pose: Pose2D, bearing: float, distance: float) -> None:
         """The target is there, seen from a pose; NaN is not a sighting."""
@@ -120,15 +123,22 @@ class Following:
         self.pursuit = Pursuit.FOLLOWING
 
     def look(self, now: float, pose: Pose2D, people: People | None, id: str) -> Person | None:
-        """Take in the newest people from the camera; `sight_of` chooses the followed one. Old
-        results do not count: the robot has moved since.
+        """Take in the newest people from the camera; `sight_of` chooses the followed one, who then
+        stays it until they are given up. They are where the robot saw them from when the picture
+        was taken; old results do not count.
         """
+        self._poses.append((now, pose))
+        while now - self._poses[0][0] > LOST_S:
+            self._poses.popleft()
         if people is None or people.time <= self._looked:
             return None
         self._looked = people.time
+        if self.pursuit is not Pursuit.LOST:
+            id = id or self.person
         if (person := sight_of(people, id, now)) is not None:
             self.person = person.id
-            self.see(now, pose, person.bearing, person.distance)
+            _, taken = min(self._poses, key=lambda entry: abs(entry[0] - people.time))
+            self.see(now, taken, person.bearing, person.distance)
         return person
 
     @property

@@ -81,6 +81,13 @@ class CameraView:
         bearing = math.atan2(left, ahead) + pan
         return self.mount.x + far * math.cos(bearing), self.mount.y + far * math.sin(bearing)
 
+    def horizon(self, size: Size) -> float:
+        """Pixels from the top: how far down the middle of a picture shows what is far away at the
+        height of the camera.
+        """
+        up = self.toward(size[0] / 2, size[1] / 2, size)[1]
+        return size[1] / 2 + self.focal_length(size) * math.tan(up)
+
     def distance(self, x: float, y: float, pixels: float, meters: float, size: Size) -> float:
         """Distance in meters to an object of known size from its size in pixels; NaN for 0 pixels.
 

@@ -164,3 +164,44 @@ def test_a_place_that_cannot_be_reached_is_given_up() -> None:
     first = wandering.goal(0.0, Pose2D())
     assert wandering.goal(10.0, Pose2D()) == first
     assert wandering.goal(16.0, Pose2D()) != first
+
+
+def sighting(time: float, *who: tuple[str, float, float], attended: str) -> People:
+    """People by their id, bearing and distance."""
+    persons = (
+        Person(id, HeadPose(time, 0, 0), bearing=bearing, distance=distance)
+        for id, bearing, distance in who
+    )
+    return People(time, tuple(persons), attended)
+
+
+def test_whoever_is_followed_stays_it_though_another_one_is_attended_to():
+    following, pose = Following(), Pose2D()
+    following.look(0.0, pose, sighting(0.0, ("p1", 0.0, 2.0), attended="p1"), "")
+    both = sighting(0.1, ("p1", 0.0, 2.0), ("p2", 0.5, 1.0), attended="p2")
+    following.look(0.1, pose, both, "")
+    assert following.person == "p1"
+    assert following.target == pytest.approx((2.0, 0.0))
+    alone = sighting(0.2, ("p2", 0.5, 1.0), attended="p2")
+    assert following.look(0.2, pose, alone, "") is None
+    assert following.target == pytest.approx((2.0, 0.0))
+
+
+def test_after_giving_up_it_may_follow_another_one():
+    following, pose = Following(FollowingManner(patience_s=1.5)), Pose2D()
+    following.look(0.0, pose, sighting(0.0, ("p1", 0.0, 2.0), attended="p1"), "")
+    for tick in range(60):
+        following.goal(tick * TICK, pose)
+    assert following.pursuit is Pursuit.LOST
+    following.look(3.1, pose, sighting(3.1, ("p2", 0.5, 1.0), attended="p2"), "")
+    assert following.person == "p2"
+    assert following.pursuit is Pursuit.FOLLOWING
+
+
+def test_who_was_seen_is_where_the_robot_saw_them_from_when_the_picture_was_taken():
+    following = Following()
+    for tick in range(5):
+        following.look(tick * TICK, Pose2D(0.0, 0.0, 0.1 * tick), None, "")
+    people = sighting(0.05, ("p1", 0.3, 1.0), attended="p1")
+    following.look(0.25, Pose2D(0.0, 0.0, 0.5), people, "")
+    assert following.target == pytest.approx((math.cos(0.4), math.sin(0.4)))

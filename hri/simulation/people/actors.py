@@ -124,7 +124,7 @@ class Appearance:
     stride: float = 0.0
     """How far the left leg is before the right one, -1 to 1."""
     outfit: Outfit | None = None
-    """What they wear, if not what the actor does."""
+    """What they wear instead of the clothes of the actor."""
 
     def paint(self, image: Image) -> None:
         """Draw them into a picture."""

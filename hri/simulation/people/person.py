@@ -131,7 +131,7 @@ class SimulatedPerson:
         self.x, self.y = x, y
         self.name, self.actor = name, actor
         self.outfit: Outfit | None = None
-        """What they wear, if not what the actor does."""
+        """What they wear instead of the clothes of the actor."""
         self.spoken: list[Spoken] = []
         self._synthesizer = synthesizer
         self._seed = seed

@@ -10,6 +10,7 @@ import numpy as np
 
 from hri.core.signals import (
     ColorBlob,
+    FaceBox,
     FoundObject,
     Hand,
     HandGesture,
@@ -138,7 +139,7 @@ class _Marks:
     @property
     def has_place(self) -> bool:
         """Whether there is a box that can be drawn."""
-        box = self._person.pose.box
+        box = self._box
         if box is None:
             return False
         edges = (box.x, box.y, box.width, box.height)
@@ -152,22 +153,27 @@ class _Marks:
         self._draw_box(3 if is_attended else 1)
         if self._person.is_visible:
             self._draw_pose(self._person.pose)
-        box = self._person.pose.box
+        box = self._box
         assert box is not None
         line = round(32 * self._size)
         for row, kind in enumerate(gestures):
             at = (round(box.x), round(box.y + box.height + 20 * self._size) + (row + 1) * line)
             _write(self._canvas, kind, at, 1.4 * self._size, GESTURE)
 
+    @property
+    def _box(self) -> FaceBox | None:
+        """Of the face, or of the body where only that is seen."""
+        return self._person.pose.box or self._person.body
+
     def _draw_box(self, thickness: int) -> None:
-        box = self._person.pose.box
+        box = self._box
         assert box is not None
         corner = round(box.x), round(box.y)
         other = round(box.x + box.width), round(box.y + box.height)
         cv2.rectangle(self._canvas, corner, other, self._color, thickness, cv2.LINE_AA)
         at = corner[0], corner[1] - 6
         _write(self._canvas, words_of(self._person), at, self._size, self._color)
-        if self._person.is_visible:
+        if self._person.is_visible and self._person.has_face:
             at = corner[0], other[1] + round(16 * self._size)
             _write(self._canvas, pose_words(self._person.pose), at, 0.8 * self._size, self._color)
 
@@ -232,6 +238,8 @@ def words_of(person: Person) -> str:
         words.append(f"{person.distance:.1f} m")
     if not person.is_visible:
         return "  ".join([*words, "out of sight"])
+    if not person.has_face:
+        words.append("from behind")
     if person.engagement != "unengaged":
         words.append(person.engagement)
     return "  ".join(words)

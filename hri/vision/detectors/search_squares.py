@@ -105,11 +105,13 @@ class SearchPlan:
         interval: float,
         fits: int = 0,
         missing: Iterable[tuple[float, float, float]] = (),
+        spent: float = 0.0,
     ) -> list[Square]:
         """The squares for the picture of this time, in seconds; noted as looked at.
 
         `interval`: seconds between two looks at the largest squares; `fits`: meshes that are fitted
-        in the same picture; `missing`: middle and size, in pixels, of the faces that are missing.
+        in the same picture; `missing`: middle and size, in pixels, of the faces that are missing;
+        `spent`: seconds of modeled work for anything else in it.
         """
         sought = list(missing)
         waited = []
@@ -123,7 +125,8 @@ class SearchPlan:
             lateness = (time - last) / (interval * turns)
             if lateness >= DUE:
                 waited.append((-lateness, index))
-        affordable = max(1, int((BUDGET - fits * FIT_COST) / SQUARE_COST))
+        spent += fits * FIT_COST
+        affordable = max(1, int((BUDGET - spent) / SQUARE_COST))
         chosen = sorted(waited)[:affordable]
         for _, index in chosen:
             self._looked[index] = time

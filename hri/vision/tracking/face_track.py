@@ -26,6 +26,7 @@ from hri.vision.detectors.mesh import (
 from hri.vision.detectors.preprocessing import Gray
 from hri.vision.gestures.optical_flow_swing import OpticalFlowSwing
 from hri.vision.head_pose import head_pose
+from hri.vision.tracking.place import Place
 
 PRESENT = 0.5
 """Presence above which the mesh says that a face is there."""
@@ -45,6 +46,8 @@ SMALLEST = 14.0
 """Pixels of a face, below which a mesh is a guess: about 7 m before a common webcam."""
 
 
+FRONTAL = math.radians(35)
+"""A head turned further does not show how someone looks."""
 FAR_SMALLER = 0.5
 """Part of the size of a face; what is smaller is far behind it."""
 NECK_AND_CHEST = (0.5, (0.4, 1.5))
@@ -96,6 +99,16 @@ class FaceTrack:
     def middle(self) -> tuple[float, float]:
         """Pixels."""
         return self.region.x, self.region.y
+
+    @property
+    def is_frontal(self) -> bool:
+        """Whether it is turned so little that it shows how someone looks."""
+        return math.hypot(self.pose.pitch, self.pose.yaw) < FRONTAL
+
+    @property
+    def place(self) -> Place:
+        """Where it is."""
+        return Place(self.region.x, self.region.y, self.breadth)
 
     def hides(self, found: FoundFace) -> bool:
         """Whether a face that was found is not one, because this person's neck or chest is there.

@@ -8,6 +8,7 @@ import math
 
 from hri.vision.tracking.appearance import Look, blended, difference
 from hri.vision.tracking.face_track import FaceTrack
+from hri.vision.tracking.place import Place
 
 STRANGER = 0.15
 """A face that costs more is someone else: 2 of 100 of one person do, and 99 of 100 of another."""
@@ -48,9 +49,9 @@ class Identity:
         """Whether they were ever seen where they could not be taken for anyone else."""
         return self._time > -math.inf
 
-    def place(self, time: float, face: FaceTrack) -> None:
-        """See them at a time in seconds."""
-        (x, y), elapsed = face.middle, time - self._time
+    def place(self, time: float, place: Place) -> None:
+        """See them, or their body, at a time in seconds."""
+        x, y, elapsed = place.x, place.y, time - self._time
         if 0 < elapsed < COASTING:
             part = 1 - math.exp(-elapsed / PACE_SMOOTHING)
             old_x, old_y = self._pace
@@ -60,7 +61,7 @@ class Identity:
             )
         elif elapsed != 0:
             self._pace = 0.0, 0.0
-        self._x, self._y, self._breadth, self._time = x, y, face.breadth, time
+        self._x, self._y, self._breadth, self._time = x, y, place.breadth, time
 
     def learn(self, look: Look) -> None:
         """Take how they look now."""

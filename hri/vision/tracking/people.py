@@ -26,6 +26,8 @@ from hri.vision.engagement import Zones
 from hri.vision.hands.hand_tracker import HandTracker, load_hand_tracker
 from hri.vision.tracking.appearance import Look, look_of
 from hri.vision.tracking.assignment import assigned
+from hri.vision.tracking.body_track import BESIDE, FOUND_AGAIN, MOMENT, Surroundings
+from hri.vision.tracking.clothes import Colors
 from hri.vision.tracking.face_track import MAX_GAP, FaceTrack, Sight, is_face
 from hri.vision.tracking.identity import RETURN_MEMORY, STRANGER, STRANGER_IN_CROWD
 from hri.vision.tracking.person_track import PersonTrack, number_of
@@ -36,6 +38,8 @@ MEMORY = 3.0
 """Seconds after which someone who is out of sight has left."""
 KNOWN_FOR = 5.0
 """Seconds for which they are known again when they come back."""
+KNOWN_BY_CLOTHES = 20.0
+"""The same of who went away from behind: they are known by their clothes."""
 MOST = 8
 """Faces that are followed at once."""
 MOST_FITS = 4
@@ -48,6 +52,11 @@ SEARCH_NEWCOMERS = 0.4
 """The same else."""
 SEARCH_BOXES = 0.3
 """The same at most when there is no mesh to say where the faces are."""
+COLORS_COST, NEAR_COST, WIDE_COST = 0.001, 0.002, 0.006
+"""Seconds of modeled work: to tell the colors of a picture, to follow a body, and to look for one
+in all of it."""
+WIDE_EVERY = 0.1
+"""Seconds between two looks for the same body in the whole picture."""
 SECOND_LOOK = 0.5
 """Seconds within which a face must be found again when there is no mesh to confirm it."""
 CLOSE, APART = 1.1, 1.4
@@ -64,9 +73,9 @@ STAYING = 0.03
 LATENESS = 0.1
 """What a face costs more for who was never seen away from the others: likely one of them."""
 LEARN_EVERY = 0.2
-"""Seconds between two looks at how someone looks."""
-FRONTAL = math.radians(35)
-"""A head turned further does not show how someone looks."""
+"""Seconds between two looks at how someone looks, and at what they wear."""
+OTHER_CLOTHES, CLOTHES_COST = 0.35, 0.2
+"""Likeness of clothes below which a face costs more, and how much where nothing is alike."""
 
 
 class PeopleTracker:
@@ -108,6 +117,7 @@ class PeopleTracker:
         elif elapsed > MAX_GAP:
             self._lose_all()
         self._follow(sight)
+        self._follow_bodies(sight)
         self._mix(sight.time)
         self._search(sight)
         self._mix(sight.time)
@@ -129,6 +139,8 @@ class PeopleTracker:
         self._candidates: list[tuple[float, FoundFace]] = []
         """Faces that were found and not confirmed yet, and when."""
         self._plan = SearchPlan(())
+        self._body_work = 0.0
+        """Seconds of modeled work for bodies in the last picture."""
         self._attending = Attending()
 
     def _lose_all(self) -> None:
@@ -154,6 +166,46 @@ class PeopleTracker:
             if face.is_lost(sight.time) or not _is_inside(face.middle, sight.size):
                 somebody.face = None
 
+    def _follow_bodies(self, sight: Sight) -> None:
+        """Follow by their clothes those whose faces are not seen; one of the lost is looked for."""
+        self._body_work = 0.0
+        bodies = [
+            somebody
+            for somebody in (*self._known, *self._departed)
+            if somebody.face is None and somebody.clothes.are_known
+        ]
+        if not bodies:
+            return
+        near = [somebody for somebody in bodies if somebody.body.is_near(sight.time)]
+        lost = [
+            somebody
+            for somebody in bodies
+            if somebody not in near and sight.time - somebody.body.looked >= WIDE_EVERY
+        ]
+        lost = sorted(lost, key=lambda somebody: somebody.body.looked)[:1]
+        self._body_work = COLORS_COST + len(near) * NEAR_COST + len(lost) * WIDE_COST
+        colors = Colors.of(sight.image)
+        for somebody in (*near, *lost):
+            around = self._around(sight, somebody)
+            place = somebody.body.follow(colors, somebody.clothes, around)
+            if place is None:
+                continue
+            somebody.identity.place(sight.time, place)
+            somebody.seen = sight.time
+            if somebody in self._departed:
+                self._rejoin(somebody)
+
+    def _around(self, sight: Sight, somebody: PersonTrack) -> Surroundings:
+        """What there is beside someone."""
+        others = [face.place for other, face in self._seen() if other is not somebody]
+        others += [
+            other.body.place
+            for other in self._known
+            if other is not somebody and other.face is None
+            if other.body.place is not None and other.body.seen == sight.time
+        ]
+        return Surroundings(sight.time, self._view.horizon(sight.size), others)
+
     def _urgency(self, seen: tuple[PersonTrack, FaceTrack]) -> tuple[bool, float, int]:
         """Order of fitting meshes: the attended person first, then who has waited longest."""
         somebody = seen[0]
@@ -161,19 +213,19 @@ class PeopleTracker:
 
     # --- finding ---
 
-    def _interval(self) -> float:
+    def _interval(self, time: float) -> float:
         """Seconds from one search to the next."""
-        if all(somebody.face is None for somebody in self._known):
+        missing = [s for s in self._known if s.face is None and not s.body.is_near(time)]
+        if len(missing) == len(self._known):
             return SEARCH_ALONE
-        is_missing = any(somebody.face is None for somebody in self._known)
-        interval = SEARCH_MISSING if is_missing else SEARCH_NEWCOMERS
+        interval = SEARCH_MISSING if missing else SEARCH_NEWCOMERS
         return interval if self._mesh is not None else min(interval, SEARCH_BOXES)
 
     def _search(self, sight: Sight) -> None:
-        interval = self._interval()
+        interval = self._interval(sight.time)
         missing = [s.identity.expected_face(sight.time) for s in self._known if s.face is None]
         fits = 0 if self._mesh is None else min(MOST_FITS, sum(1 for _ in self._seen()))
-        squares = self._plan.due(sight.time, interval, fits, missing)
+        squares = self._plan.due(sight.time, interval, fits, missing, self._body_work)
         self._is_searching = bool(squares)
         if not squares:
             return
@@ -245,7 +297,7 @@ class PeopleTracker:
         missing = [somebody for somebody in self._known if somebody.face is None] + self._departed
         looks = [look_of(sight.image, face.region) for face in faces]
         costs = [
-            [self._cost(sight.time, somebody, face, look) for somebody in missing]
+            [self._cost(sight, somebody, face, look) for somebody in missing]
             for face, look in zip(faces, looks, strict=True)
         ]
         for face, look, index in zip(faces, looks, assigned(costs), strict=True):
@@ -256,11 +308,15 @@ class PeopleTracker:
             else:
                 somebody = missing[index]
                 if somebody in self._departed:
-                    self._departed.remove(somebody)
-                    self._known = sorted([*self._known, somebody], key=lambda one: one.number)
+                    self._rejoin(somebody)
             somebody.face, somebody.fitted = face, sight.time
 
-    def _cost(self, time: float, somebody: PersonTrack, face: FaceTrack, look: Look) -> float:
+    def _rejoin(self, somebody: PersonTrack) -> None:
+        """Let someone be there again."""
+        self._departed.remove(somebody)
+        self._known = sorted([*self._known, somebody], key=lambda one: one.number)
+
+    def _cost(self, sight: Sight, somebody: PersonTrack, face: FaceTrack, look: Look) -> float:
         """How unlikely it is that a new face is that of someone missing; infinite for no.
 
         Of those who are mixed up, each may be taken for another: a face that fits any of them will
@@ -268,12 +324,31 @@ class PeopleTracker:
         """
         group = next((group for group in self._groups() if somebody in group), [])
         if group and any(_between(face, other) < APART for _, other in self._seen()):
-            return somebody.identity.cost(time, face, look)
+            return somebody.identity.cost(sight.time, face, look)
         if group:
-            cost = min(other.identity.cost(time, face, look) for other in group)
+            cost = min(other.identity.cost(sight.time, face, look) for other in group)
             return cost if cost < STRANGER_IN_CROWD else math.inf
-        cost = somebody.identity.cost(time, face, look, RETURN_MEMORY)
+        cost = somebody.identity.cost(sight.time, face, look, RETURN_MEMORY)
+        cost += self._misfit_of_clothes(sight, somebody, face)
         return cost if cost < STRANGER else math.inf
+
+    def _misfit_of_clothes(self, sight: Sight, somebody: PersonTrack, face: FaceTrack) -> float:
+        """What it costs that someone wears other clothes than there are below a face.
+
+        Infinite for who was seen from behind, where body or clothes say that it is not them.
+        """
+        if not somebody.clothes.are_known:
+            return 0.0
+        alike = somebody.clothes.likeness(Colors.of(sight.image), face.place)
+        if somebody.went_away:
+            if somebody.body.contradicts(sight.time, face.place):
+                return math.inf
+            is_there = sight.time - somebody.body.seen <= MOMENT
+            if not is_there and (alike is None or alike.mean < FOUND_AGAIN):
+                return math.inf
+        if alike is None:
+            return 0.0
+        return CLOTHES_COST * max(0.0, 1 - alike.mean / OTHER_CLOTHES)
 
     # --- telling apart ---
 
@@ -343,16 +418,40 @@ class PeopleTracker:
         mixed = set().union(*self._mixed)
         for somebody, face in self._seen():
             somebody.seen = sight.time
+            around = self._around(sight, somebody)
+            somebody.body.rest_on(face.place, around)
             if somebody.number in mixed:
                 continue
-            somebody.identity.place(sight.time, face)
-            is_frontal = math.hypot(face.pose.pitch, face.pose.yaw) < FRONTAL
-            if is_frontal and sight.time - somebody.learned >= LEARN_EVERY:
+            somebody.identity.place(sight.time, face.place)
+            self._dress(sight, somebody, face, around)
+            if face.is_frontal and sight.time - somebody.learned >= LEARN_EVERY:
                 somebody.learned = sight.time
                 somebody.identity.learn(look_of(sight.image, face.region))
+        self._forget_absent(sight)
+
+    def _dress(
+        self, sight: Sight, somebody: PersonTrack, face: FaceTrack, around: Surroundings
+    ) -> None:
+        """Learn what someone wears, where it is seen that it is theirs."""
+        place = face.place
+        is_alone = all(place.away(other) > BESIDE for other in around.others)
+        if is_alone and sight.time - somebody.dressed >= LEARN_EVERY:
+            somebody.dressed = sight.time
+            colors = Colors.of(sight.image)
+            somebody.clothes.learn(colors, place)
+            somebody.clothes.look_around(colors, place)
+            if face.is_frontal:
+                somebody.body.measure(colors, somebody.clothes, around)
+
+    def _forget_absent(self, sight: Sight) -> None:
         gone = [s for s in self._known if sight.time - s.seen > MEMORY]
         self._known = [s for s in self._known if s not in gone]
-        self._departed = [s for s in (*self._departed, *gone) if sight.time - s.seen <= KNOWN_FOR]
+        departed = [
+            s
+            for s in (*self._departed, *gone)
+            if sight.time - s.seen <= (KNOWN_BY_CLOTHES if s.went_away else KNOWN_FOR)
+        ]
+        self._departed = departed[-MOST:]
         left = {somebody.number for somebody in self._known}
         self._mixed = {pair for pair in self._mixed if pair <= left}
 

@@ -7,16 +7,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from hri.core.signals import Person
+from hri.core.signals import FaceBox, Person
 from hri.vision.blendshapes import PUPILS, Expressiveness
 from hri.vision.camera_view import EYE_DISTANCE, FACE_SIZE, CameraView
 from hri.vision.engagement import Engagement, Zones
 from hri.vision.eye_contact import EyeContact, looking_score
+from hri.vision.tracking.body_track import BodyTrack
+from hri.vision.tracking.clothes import Clothes
 from hri.vision.tracking.face_track import FaceTrack
 from hri.vision.tracking.identity import Identity
+from hri.vision.tracking.place import Place
 
 DISTANCE_SMOOTHING = 0.25
 """Seconds over which the distance is averaged."""
+DEPTH_LEARNING = 0.2
+"""Part of how far away someone is, for the size of the face, that each picture makes up."""
+CROWN_TO_FEET = (-1.2, -0.9, 1.2, 8.9)
+"""A standing adult in sizes of the face from its middle: left, top, right, bottom."""
 
 
 class PersonTrack:
@@ -27,29 +34,44 @@ class PersonTrack:
         self.id = f"p{number}"
         self.face: FaceTrack | None = None
         self.identity = Identity()
+        self.clothes, self.body = Clothes(), BodyTrack()
+        self.dressed = -math.inf
+        """Seconds, when their clothes were learned last."""
+        self._since = time
         self.seen = time
         """Seconds, when they were in sight last."""
         self.learned = -math.inf
         self.fitted = -math.inf
         self.person: Person | None = None
-        self._distance = math.nan
+        self._distance, self._depth = math.nan, 1.0
         self._distance_time = time
         self._looking, self._engagement = EyeContact(), Engagement(zones)
         self._expressiveness = Expressiveness()
 
+    @property
+    def went_away(self) -> bool:
+        """Whether they were seen from behind last, not their face."""
+        return self.body.seen > self.body.rested
+
     def describe(self, time: float, size: tuple[int, int], view: CameraView) -> Person:
         """The person as they are now, or as they were last while they are out of sight."""
-        if self.face is None:
-            self.person = self._hidden(time)
-        else:
+        if self.face is not None:
             self.person = self._visible(time, self.face, size, view)
+        elif self.body.place is not None and self.body.seen == time:
+            self.person = self._from_behind(time, self.body.place, size, view)
+        else:
+            self.person = self._hidden(time)
         return self.person
 
     def _visible(
         self, time: float, face: FaceTrack, size: tuple[int, int], view: CameraView
     ) -> Person:
         x, y, pixels, meters = _gauge(face)
-        distance = self._smoothed(time, view.distance(x, y, pixels, meters, size))
+        measured = view.distance(x, y, pixels, meters, size)
+        distance = self._smoothed(time, measured)
+        if face.is_frontal:
+            depth = measured / view.distance(x, y, face.breadth, FACE_SIZE, size)
+            self._depth += DEPTH_LEARNING * (depth - self._depth) if math.isfinite(depth) else 0.0
         bearing, elevation = view.toward(x, y, size)
         score = looking_score(face.pose.pitch, face.pose.yaw)
         is_looking = self._looking.update(time, score)
@@ -66,6 +88,34 @@ class PersonTrack:
             engagement=self._engagement.update(time, distance, is_looking),
             countenance=None if landmarks is None else self._expressiveness.update(time, landmarks),
             landmarks=landmarks,
+            since=self._since,
+        )
+
+    def _from_behind(
+        self, time: float, place: Place, size: tuple[int, int], view: CameraView
+    ) -> Person:
+        assert self.person is not None
+        measured = view.distance(place.x, place.y, place.breadth, FACE_SIZE, size)
+        distance = self._smoothed(time, self._depth * measured)
+        bearing, elevation = view.toward(place.x, place.y, size)
+        left, top, right, bottom = (place.breadth * edge for edge in CROWN_TO_FEET)
+        is_looking = self._looking.update(time, 0.0)
+        return replace(
+            self.person,
+            pose=replace(self.person.pose, box=None),
+            motion=None,
+            is_visible=True,
+            distance=distance,
+            bearing=bearing,
+            elevation=elevation,
+            looking=0.0,
+            is_looking=is_looking,
+            engagement=self._engagement.update(time, distance, is_looking),
+            countenance=None,
+            landmarks=None,
+            hands=(),
+            has_face=False,
+            body=FaceBox(place.x + left, place.y + top, right - left, bottom - top),
         )
 
     def _hidden(self, time: float) -> Person:
@@ -74,6 +124,8 @@ class PersonTrack:
         return replace(
             self.person,
             is_visible=False,
+            has_face=False,
+            body=None,
             motion=None,
             looking=0.0,
             is_looking=is_looking,

@@ -141,7 +141,9 @@ def test_legs_part_with_a_stride_and_clothes_are_those_of_the_outfit() -> None:
     size = (320, 240)
     outfit = Outfit((200, 40, 40), (30, 160, 40))
     stands, walks = (
-        render_people([Appearance(center=(160, 40), height=28.0, turn=1.6, stride=s, outfit=outfit)])
+        render_people(
+            [Appearance(center=(160, 40), height=28.0, turn=1.6, stride=s, outfit=outfit)]
+        )
         for s in (0.0, 1.0)
     )
     assert stands.shape[:2] == size[::-1]

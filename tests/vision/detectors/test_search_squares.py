@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from hri.vision.detectors.search_squares import FINEST, SearchPlan, all_squares
+from hri.vision.detectors.search_squares import BUDGET, FINEST, SearchPlan, all_squares
 
 SIDES = st.integers(32, 800)
 INTERVAL = 0.1
@@ -66,3 +66,9 @@ def test_nothing_is_due_before_its_time() -> None:
         pass
     assert plan.due(1.05, INTERVAL) == []
     assert plan.due(1.11, INTERVAL) != []
+
+
+def test_what_is_spent_on_other_things_is_not_there_for_the_search() -> None:
+    plan = SearchPlan(all_squares(640, 480))
+    for index in range(30):
+        assert len(plan.due(index / 15, INTERVAL, spent=BUDGET)) <= 1

@@ -1,0 +1,219 @@
+"""People from behind, in drawn films with the real networks, and with whatever input."""
+
+import math
+import random
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import pytest
+from hypothesis import given, settings, strategies as st
+
+from hri.core.signals import Frame, People
+from hri.simulation.people.actors import Optics, render_people
+from hri.simulation.people.appearance import Outfit
+from hri.simulation.people.body_motion import Posture, eased, steps
+from hri.simulation.people.lens import Lens
+from hri.vision.camera_view import CameraView
+from hri.vision.detectors.detector_choice import Detectors, load_detectors
+from hri.vision.tracking.body_track import BodyTrack, Surroundings
+from hri.vision.tracking.clothes import Clothes, Colors
+from hri.vision.tracking.people import PeopleTracker
+from hri.vision.tracking.place import Place
+from tests.vision.stage import SIZE, Stage
+
+OPTICS = Optics(640, 480, 1.05)
+RATE = 15.0
+BLUE, RED = Outfit((44, 84, 160)), Outfit((176, 48, 44), (150, 132, 104))
+TURNS = 1.5
+"""Seconds, when the one who walks away turns around."""
+
+
+class Walker:
+    """Faces the camera, turns around, and walks away; or comes by."""
+
+    def __init__(self, actor: str, outfit: Outfit) -> None:
+        self.actor, self.outfit = actor, outfit
+
+    def at(self, time: float) -> tuple[float, float, float] | None:
+        """Meters to the right and ahead, and how far they are turned; None when not there."""
+        part = eased((time - TURNS) / 0.7)
+        return 0.1, 1.3 + 0.5 * max(0.0, time - TURNS - 0.4), math.pi * part
+
+
+class Passing(Walker):
+    """Comes by at a distance, from the right to the left, at some time."""
+
+    def __init__(self, actor: str, outfit: Outfit, begins: float, ahead: float) -> None:
+        super().__init__(actor, outfit)
+        self._begins, self._ahead = begins, ahead
+
+    def at(self, time: float) -> tuple[float, float, float] | None:
+        right = 1.5 - 1.2 * (time - self._begins)
+        return (right, self._ahead, -math.pi / 2) if -1.5 < right < 1.5 else None
+
+
+def frames(walkers: Sequence[Walker], seconds: float) -> Iterator[Frame]:
+    lens = Lens(3.0)
+    for index in range(round(seconds * RATE)):
+        time = index / RATE
+        shown = []
+        for walker in walkers:
+            if (there := walker.at(time)) is not None:
+                right, ahead, turn = there
+                held = steps(time) if time > TURNS else Posture()
+                look = OPTICS.show(walker.actor, held, right, ahead, 1.0, turn, walker.outfit)
+                shown.append(look)
+        yield Frame(lens.take(render_people(shown, OPTICS.size), index), time, index)
+
+
+def seen(detectors: Detectors, walkers: Sequence[Walker], seconds: float) -> list[People]:
+    tracker = PeopleTracker(detectors, CameraView(OPTICS.field_of_view))
+    return [tracker.see(frame) for frame in frames(walkers, seconds)]
+
+
+def test_who_turns_around_and_walks_away_stays_the_same_person(detectors: Detectors) -> None:
+    guide = Walker("ada", BLUE)
+    people = seen(detectors, [guide], 5.0)
+    assert {person.id for each in people for person in each.persons} == {"p1"}
+    for each in people[round(2.6 * RATE) :]:
+        (person,) = each.persons
+        assert person.is_visible
+        assert not person.has_face
+        assert person.since == 0.0
+        assert person.pose.box is None
+        assert person.landmarks is None
+        assert person.body is not None
+        right, ahead, _ = guide.at(each.time)
+        assert person.distance == pytest.approx(ahead, rel=0.25)
+        assert person.bearing == pytest.approx(-math.atan2(right, ahead), abs=0.05)
+        assert not person.is_looking
+
+
+def test_who_passes_between_in_other_clothes_is_not_taken_for_them(detectors: Detectors) -> None:
+    guide = Walker("ada", BLUE)
+    people = seen(detectors, [guide, Passing("kofi", RED, 3.0, 0.9)], 6.5)
+    for each in people[round(2.6 * RATE) :]:
+        person = each.person("p1")
+        assert person is not None
+        if person.is_visible:
+            right, ahead, _ = guide.at(each.time)
+            assert person.bearing == pytest.approx(-math.atan2(right, ahead), abs=0.1)
+    last = people[-1].person("p1")
+    assert last is not None
+    assert last.is_visible
+
+
+def test_who_comes_where_someone_went_away_is_someone_else(detectors: Detectors) -> None:
+    class Leaving(Walker):
+        def at(self, time: float) -> tuple[float, float, float] | None:
+            return super().at(time) if time < 3.0 else None
+
+    people = seen(detectors, [Leaving("ada", BLUE), Passing("kofi", RED, 3.2, 2.0)], 5.5)
+    for each in people[round(3.1 * RATE) :]:
+        first = each.person("p1")
+        assert first is None or not first.is_visible
+
+
+def test_who_looks_down_stays_in_sight(detectors: Detectors) -> None:
+    lens, tracker = Lens(3.0), PeopleTracker(detectors, CameraView(OPTICS.field_of_view))
+    for index in range(45):
+        time = index / RATE
+        pitch = 1.2 * eased((time - 1.2) / 0.5)
+        shown = OPTICS.show("bruno", Posture(pitch=pitch), 0.0, 1.3, outfit=RED)
+        image = lens.take(render_people([shown], OPTICS.size), index)
+        people = tracker.see(Frame(image, time, index))
+        assert [person.id for person in people.persons if person.is_visible] == ["p1"]
+
+
+TOLD = """
+from tests.vision.tracking.test_body_track import told
+print(told())
+"""
+
+
+def told() -> str:
+    """All that is said of the people of a film."""
+    people = seen(load_detectors(), [Walker("mei", RED), Passing("bruno", BLUE, 2.0, 0.9)], 3.5)
+    return repr(
+        [
+            [(p.id, p.is_visible, p.has_face, p.distance, p.bearing, p.body) for p in each.persons]
+            for each in people
+        ]
+    )
+
+
+def test_one_film_gives_the_same_people_twice_and_in_another_process(face_models: object) -> None:
+    first = told()
+    assert told() == first
+    other = subprocess.run(
+        [sys.executable, "-c", TOLD], capture_output=True, text=True, check=True, timeout=300
+    )
+    assert other.stdout.strip() == first
+
+
+def test_clothes_are_like_themselves_and_unlike_others() -> None:
+    where = Place(320.0, 240.0, 554 * 0.178 / 2)
+    clothes = Clothes()
+    pictures = [
+        Colors.of(
+            render_people([OPTICS.show("ada", Posture(), 0.0, 2.0, outfit=outfit)], OPTICS.size)
+        )
+        for outfit in (BLUE, RED, Outfit(BLUE.shirt, BLUE.trousers, 0.5))
+    ]
+    assert clothes.likeness(pictures[0], where) is None
+    clothes.learn(pictures[0], where)
+    same, other, striped = (clothes.likeness(picture, where) for picture in pictures)
+    assert same is not None
+    assert other is not None
+    assert striped is not None
+    assert same.mean > 0.95
+    assert other.mean < 0.4
+    assert striped.mean < 0.8
+
+
+numbers = st.floats(allow_nan=True, allow_infinity=True)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.integers(1, 90),
+    st.integers(1, 90),
+    st.integers(0, 2**32 - 1),
+    st.lists(st.tuples(numbers, numbers, numbers), min_size=1, max_size=6),
+)
+def test_whatever_comes_a_body_is_somewhere_or_nowhere(
+    width: int, height: int, seed: int, places: list[tuple[float, float, float]]
+) -> None:
+    dice = np.random.default_rng(seed)
+    image = dice.integers(0, 256, (height, width, 3), np.uint8)
+    colors, clothes, body = Colors.of(image), Clothes(), BodyTrack()
+    home = Place(width / 2, height / 4, max(1.0, height / 12))
+    for number, values in enumerate(places):
+        place, time = Place(*values), number / 15
+        around = Surroundings(time, height / 2, [Place(*values)])
+        for each in (place, home):
+            clothes.learn(colors, each)
+            clothes.look_around(colors, each)
+            body.rest_on(each, around)
+            clothes.likeness(colors, each, is_behind=True)
+        found = body.follow(colors, clothes, Surroundings(time + 0.05 + number, height / 2))
+        assert found is None or found.is_somewhere
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_whatever_the_pictures_ids_are_kept_and_few_are_remembered(seed: int) -> None:
+    lots, dice = random.Random(seed), np.random.default_rng(seed)
+    stage = Stage([])
+    stage.players = []
+    tracker = PeopleTracker(stage.detectors())
+    time = 0.0
+    for index in range(40):
+        time += lots.choice((0.03, 0.07, 0.3, 1.0, -0.5))
+        image = stage.image()
+        if lots.random() < 0.5:
+            image = dice.integers(0, 256, (SIZE[1], SIZE[0], 3), np.uint8)
+        people = tracker.see(Frame(image, time, index))
+        assert people.persons == ()
