@@ -20,6 +20,11 @@ WIDEST = 640
 """Pixels; a larger picture is shrunk."""
 STRIDE, PADDING, STEP = (8, 8), (16, 16), 1.05
 """Of the search, pixels; and the factor from one size to the next."""
+SEARCHED_SIZE, WIDE_STEP = 125.0, 1.1
+"""Pixels from crown to feet to which a picture is scaled in which one body is expected; and the
+factor from one size to the next there."""
+AROUND, ABOVE = 0.45, 0.2
+"""How much of the picture to each side of its middle, above and below, as parts of its size."""
 MARGIN = 0.125
 """Part of what is found, at each side, that lies beside the body."""
 SMALLEST = (64, 128)
@@ -50,6 +55,37 @@ def find_bodies(image: Image) -> list[tuple[FaceBox, float]]:
         if weight >= SURE
     ]
     return sorted(bodies, key=lambda body: -body[1])
+
+
+def find_body_at(image: Image, expected: FaceBox) -> FaceBox | None:
+    """The body, from crown to feet in pixels, about where and as large as one is expected.
+
+    None when there is none. Only the picture around it is searched, in a fiftieth of the time.
+    """
+    height, width = image.shape[:2]
+    x, size = expected.x + expected.width / 2, expected.height
+    is_there = SEARCHED_SIZE / 8 <= size <= height and 0 <= x <= width
+    if not (is_there and -size <= expected.y <= height):
+        return None
+    left, right = max(0, int(x - AROUND * size)), min(width, int(x + AROUND * size))
+    top = max(0, int(expected.y - ABOVE * size))
+    bottom = min(height, int(expected.y + (1 + ABOVE) * size))
+    scale = SEARCHED_SIZE / size
+    gray = cv2.cvtColor(image[top:bottom, left:right], cv2.COLOR_RGB2GRAY)
+    small = cv2.resize(
+        gray,
+        (round((right - left) * scale), round((bottom - top) * scale)),
+        interpolation=cv2.INTER_AREA,
+    )
+    if small.shape[1] < SMALLEST[0] or small.shape[0] < SMALLEST[1]:
+        return None
+    found, weights = _detector().detectMultiScale(
+        small, winStride=STRIDE, padding=PADDING, scale=WIDE_STEP
+    )
+    if not len(found) or max(np.ravel(weights)) < SURE:
+        return None
+    best = np.asarray(found[int(np.argmax(weights))], float)
+    return _box(best / scale + (left, top, 0, 0))
 
 
 def _box(place: Any) -> FaceBox:

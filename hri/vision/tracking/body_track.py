@@ -62,6 +62,10 @@ RIVAL_APART, RIVAL_NEAR = 1.2, 0.08
 MOMENT, HEAD_AWAY, HEAD_GROWN = 0.3, 0.8, math.log(1.5)
 """Seconds for which a body shows where its face must be: sizes of the face by which that may be
 elsewhere, and logarithm of the ratio of sizes."""
+OUTLINE_AWAY, OUTLINE_GROWN = 1.0, math.log(1.6)
+"""The same of a body that was found by its outline."""
+OUTLINE_PART = 0.25
+"""Part of the way to the size and height of an outline, which are some 20 % off."""
 TAKEN, TAKEN_SIZE = 0.9, math.log(1.5)
 """Sizes of the face, and logarithm of a ratio of sizes, within which a place is someone else's."""
 BESIDE = 2.5
@@ -99,6 +103,8 @@ class BodyTrack:
         """Seconds, when that was."""
         self.rested = -math.inf
         """Seconds, when the face above it was seen last."""
+        self.outlined = -math.inf
+        """Seconds, when its outline was looked for."""
         self.looked = -math.inf
         """Seconds, when it was looked for."""
         self._pace = 0.0
@@ -163,6 +169,24 @@ class BodyTrack:
         self._note(place, around.time)
         if all(place.away(other) > BESIDE for other in around.others):
             clothes.learn_behind(colors, place)
+        return place
+
+    def take(
+        self, colors: Colors, clothes: Clothes, found: Place, around: Surroundings
+    ) -> Place | None:
+        """A body was found by its outline: where it is if it is theirs."""
+        if self.place is None:
+            return None
+        expected = self.expected(around.time)
+        is_near = expected.away(found) < OUTLINE_AWAY
+        is_near &= abs(math.log(found.breadth / expected.breadth)) < OUTLINE_GROWN
+        alike = clothes.likeness(colors, found, is_behind=True)
+        if not is_near or alike is None or alike.mean < THEIRS:
+            return None
+        grown = found.breadth / expected.breadth
+        breadth = expected.breadth * grown**OUTLINE_PART
+        place = Place(found.x, expected.y + OUTLINE_PART * (found.y - expected.y), breadth)
+        self._note(place, around.time)
         return place
 
     def expected(self, time: float) -> Place:

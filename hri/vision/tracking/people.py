@@ -17,11 +17,12 @@ from dataclasses import dataclass
 from hri.core.signals import Frame, Landmarks, People
 from hri.vision.attention import Attending
 from hri.vision.camera_view import CameraView
+from hri.vision.detectors.body import find_body_at
 from hri.vision.detectors.detector_choice import Detectors, load_detectors
 from hri.vision.detectors.face import FoundFace, overlap
 from hri.vision.detectors.mesh import disagreement, region_of, region_of_landmarks
 from hri.vision.detectors.preprocessing import gray_picture
-from hri.vision.detectors.search_squares import SearchPlan
+from hri.vision.detectors.search_squares import BUDGET, SearchPlan
 from hri.vision.engagement import Zones
 from hri.vision.hands.hand_tracker import HandTracker, load_hand_tracker
 from hri.vision.tracking.appearance import Look, look_of
@@ -31,6 +32,7 @@ from hri.vision.tracking.clothes import Colors
 from hri.vision.tracking.face_track import MAX_GAP, FaceTrack, Sight, is_face
 from hri.vision.tracking.identity import RETURN_MEMORY, STRANGER, STRANGER_IN_CROWD
 from hri.vision.tracking.person_track import PersonTrack, number_of
+from hri.vision.tracking.place import Place
 
 log = logging.getLogger("hri.vision")
 
@@ -55,6 +57,10 @@ SEARCH_BOXES = 0.3
 COLORS_COST, NEAR_COST, WIDE_COST = 0.001, 0.002, 0.006
 """Seconds of modeled work: to tell the colors of a picture, to follow a body, and to look for one
 in all of it."""
+OUTLINE_COST = 0.008
+"""The same to look for the outline of a body."""
+OUTLINE_EVERY, OUTLINE_MISSING = 1.0, 0.2
+"""Seconds between two such looks for someone who is followed, and for who was lost just now."""
 WIDE_EVERY = 0.1
 """Seconds between two looks for the same body in the whole picture."""
 SECOND_LOOK = 0.5
@@ -188,12 +194,32 @@ class PeopleTracker:
         for somebody in (*near, *lost):
             around = self._around(sight, somebody)
             place = somebody.body.follow(colors, somebody.clothes, around)
+            place = self._outlined(sight, somebody, colors, around) or place
             if place is None:
                 continue
             somebody.identity.place(sight.time, place)
             somebody.seen = sight.time
             if somebody in self._departed:
                 self._rejoin(somebody)
+
+    def _outlined(
+        self, sight: Sight, somebody: PersonTrack, colors: Colors, around: Surroundings
+    ) -> Place | None:
+        """Where someone is by the outline of the body; it is looked for now and then."""
+        body = somebody.body
+        every = OUTLINE_EVERY if body.seen == sight.time else OUTLINE_MISSING
+        is_due = sight.time - body.outlined >= every and self._body_work + OUTLINE_COST <= BUDGET
+        if not is_due or not body.is_near(sight.time):
+            return None
+        expected = body.expected(sight.time).body
+        if expected.y < 0 or expected.y + expected.height > sight.size[1]:
+            return None
+        body.outlined = sight.time
+        self._body_work += OUTLINE_COST
+        found = find_body_at(sight.image, expected)
+        if found is None:
+            return None
+        return body.take(colors, somebody.clothes, Place.on_body(found), around)
 
     def _around(self, sight: Sight, somebody: PersonTrack) -> Surroundings:
         """What there is beside someone."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hri.core.signals import FaceBox, Person
+from hri.core.signals import Person
 from hri.vision.blendshapes import PUPILS, Expressiveness
 from hri.vision.camera_view import EYE_DISTANCE, FACE_SIZE, CameraView
 from hri.vision.engagement import Engagement, Zones
@@ -22,8 +22,6 @@ DISTANCE_SMOOTHING = 0.25
 """Seconds over which the distance is averaged."""
 DEPTH_LEARNING = 0.2
 """Part of how far away someone is, for the size of the face, that each picture makes up."""
-CROWN_TO_FEET = (-1.2, -0.9, 1.2, 8.9)
-"""A standing adult in sizes of the face from its middle: left, top, right, bottom."""
 
 
 class PersonTrack:
@@ -98,7 +96,6 @@ class PersonTrack:
         measured = view.distance(place.x, place.y, place.breadth, FACE_SIZE, size)
         distance = self._smoothed(time, self._depth * measured)
         bearing, elevation = view.toward(place.x, place.y, size)
-        left, top, right, bottom = (place.breadth * edge for edge in CROWN_TO_FEET)
         is_looking = self._looking.update(time, 0.0)
         return replace(
             self.person,
@@ -115,7 +112,7 @@ class PersonTrack:
             landmarks=None,
             hands=(),
             has_face=False,
-            body=FaceBox(place.x + left, place.y + top, right - left, bottom - top),
+            body=place.body,
         )
 
     def _hidden(self, time: float) -> Person:

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from hri.core.signals import Frame, People
+from hri.core.signals import FaceBox, Frame, People
 from hri.simulation.people.actors import Optics, render_people
 from hri.simulation.people.appearance import Outfit
 from hri.simulation.people.body_motion import Posture, eased, steps
 from hri.simulation.people.lens import Lens
 from hri.vision.camera_view import CameraView
+from hri.vision.detectors.body import find_body_at
 from hri.vision.detectors.detector_choice import Detectors, load_detectors
 from hri.vision.tracking.body_track import BodyTrack, Surroundings
 from hri.vision.tracking.clothes import Clothes, Colors
@@ -173,6 +174,33 @@ def test_clothes_are_like_themselves_and_unlike_others() -> None:
     assert striped.mean < 0.8
 
 
+@pytest.mark.parametrize("actor", ["ada", "kofi", "mei"])
+def test_the_outline_of_a_back_is_found_where_it_is_expected(actor: str) -> None:
+    shown = OPTICS.show(actor, Posture(stride=0.5), 0.2, 5.0, turn=math.pi)
+    image = Lens(2.0).take(render_people([shown], OPTICS.size, 3), 0)
+    where = Place(*shown.center, 0.178 * shown.height / 0.24)
+    found = find_body_at(image, Place(where.x + 6, where.y, 1.1 * where.breadth).body)
+    assert found is not None
+    assert Place.on_body(found).away(where) < 0.4
+    assert Place.on_body(found).breadth == pytest.approx(where.breadth, rel=0.3)
+    assert find_body_at(render_people([], OPTICS.size, 3), where.body) is None
+
+
+def test_an_outline_counts_only_in_their_clothes_and_near_where_they_were() -> None:
+    where, around = Place(320.0, 240.0, 20.0), Surroundings(0.1, 240.0)
+    blue, red = (
+        Colors.of(render_people([OPTICS.show("ada", Posture(), 0.0, 4.93, outfit=o)], OPTICS.size))
+        for o in (BLUE, RED)
+    )
+    clothes, body = Clothes(), BodyTrack()
+    clothes.learn(blue, where)
+    body.rest_on(where, Surroundings(0.0, 240.0))
+    assert body.take(red, clothes, where, around) is None
+    assert body.take(blue, clothes, Place(420.0, 240.0, 20.0), around) is None
+    assert body.take(blue, clothes, Place(320.0, 240.0, 40.0), around) is None
+    assert body.take(blue, clothes, Place(322.0, 241.0, 21.0), around) is not None
+
+
 numbers = st.floats(allow_nan=True, allow_infinity=True)
 
 
@@ -200,6 +228,16 @@ def test_whatever_comes_a_body_is_somewhere_or_nowhere(
             clothes.likeness(colors, each, is_behind=True)
         found = body.follow(colors, clothes, Surroundings(time + 0.05 + number, height / 2))
         assert found is None or found.is_somewhere
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(1, 200), st.integers(1, 200), numbers, numbers, numbers, numbers)
+def test_whatever_box_is_expected_an_outline_is_found_or_not(
+    width: int, height: int, x: float, y: float, wide: float, high: float
+) -> None:
+    image = np.random.default_rng(width).integers(0, 256, (height, width, 3), np.uint8)
+    find_body_at(image, FaceBox(x, y, wide, high))
+    find_body_at(image, FaceBox(0.0, 0.0, width, height))
 
 
 @settings(max_examples=15, deadline=None)
