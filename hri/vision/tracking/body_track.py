@@ -28,7 +28,7 @@ FOUND_AGAIN = 0.6
 """The same for who was out of sight."""
 LEAST = 0.35
 """Likeness of each part of them that they must have then."""
-SHOWN = 0.25
+SHOWN = 0.12
 """How far the torso must speak for them, of 1."""
 BESIDE, ABOVE, LEGS_COUNT = 0.5, 0.5, 0.4
 """What their colors beside the torso and above it count against a place, and the legs for it."""

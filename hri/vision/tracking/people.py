@@ -449,25 +449,27 @@ class PeopleTracker:
             if somebody.number in mixed:
                 continue
             somebody.identity.place(sight.time, face.place)
-            self._dress(sight, somebody, face, around)
             if face.is_frontal and sight.time - somebody.learned >= LEARN_EVERY:
                 somebody.learned = sight.time
                 somebody.identity.learn(look_of(sight.image, face.region))
+        self._dress(sight, mixed)
         self._forget_absent(sight)
 
-    def _dress(
-        self, sight: Sight, somebody: PersonTrack, face: FaceTrack, around: Surroundings
-    ) -> None:
-        """Learn what someone wears, where it is seen that it is theirs."""
-        place = face.place
-        is_alone = all(place.away(other) > BESIDE for other in around.others)
-        if is_alone and sight.time - somebody.dressed >= LEARN_EVERY:
-            somebody.dressed = sight.time
-            colors = Colors.of(sight.image)
-            somebody.clothes.learn(colors, place)
-            somebody.clothes.look_around(colors, place)
-            if face.is_frontal:
-                somebody.body.measure(colors, somebody.clothes, around)
+    def _dress(self, sight: Sight, mixed: set[int]) -> None:
+        """Learn what someone wears who has waited longest, where it is seen that it is theirs."""
+        for somebody, face in sorted(self._seen(), key=lambda pair: pair[0].dressed):
+            place, around = face.place, self._around(sight, somebody)
+            if sight.time - somebody.dressed < LEARN_EVERY:
+                return
+            is_alone = all(place.away(other) > BESIDE for other in around.others)
+            if is_alone and somebody.number not in mixed:
+                somebody.dressed = sight.time
+                colors = Colors.of(sight.image)
+                somebody.clothes.learn(colors, place)
+                somebody.clothes.look_around(colors, place)
+                if face.is_frontal:
+                    somebody.body.measure(colors, somebody.clothes, around)
+                return
 
     def _forget_absent(self, sight: Sight) -> None:
         gone = [s for s in self._known if sight.time - s.seen > MEMORY]
