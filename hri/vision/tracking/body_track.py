@@ -30,7 +30,7 @@ LEAST = 0.35
 """Likeness of each part of them that they must have then."""
 SHOWN = 0.12
 """How far the torso must speak for them, of 1."""
-BESIDE, ABOVE, LEGS_COUNT = 0.5, 0.5, 0.4
+SIDES_COUNT, ABOVE, LEGS_COUNT = 2.5, 0.5, 0.4
 """What their colors beside the torso and above it count against a place, and the legs for it."""
 SHOULDERS: tuple[Box, Box] = ((-2.0, 1.3, -1.4, 3.3), (1.4, 1.3, 2.0, 3.3))
 OVER: Box = (-1.0, -0.6, 1.0, 0.8)
@@ -111,9 +111,9 @@ class BodyTrack:
         self._breadth = 1.0
         """Of the torso, as a part of that from the front."""
         self._rise = math.nan
+        """Sizes of the face by which the face lies below the horizon."""
         self._fit = 1.0
         """How large their clothes make them look, against the face."""
-        """Sizes of the face by which the face lies below the horizon."""
 
     def rest_on(self, place: Place, around: Surroundings) -> None:
         """The face is seen: so the body is there."""
@@ -281,7 +281,7 @@ class _Search:
         torso, shown = self._mean(self._torso, CORE, x, y, breadth, turned)
         score = torso - ABOVE * self._mean(self._torso, OVER, x, y, breadth, turned)[0]
         for box in SHOULDERS:
-            score -= BESIDE / 2 * self._mean(self._torso, box, x, y, breadth, turned)[0]
+            score -= SIDES_COUNT / 2 * self._mean(self._torso, box, x, y, breadth, turned)[0]
         if self._legs is not None:
             legs, seen = self._mean(self._legs, THIGHS, x, y, breadth, turned)
             score += LEGS_COUNT * np.where(seen > 0.5, legs, 0.0)
