@@ -182,12 +182,14 @@ def _as_specific(
 ) -> Iterator[Alternative]:
     """Beside a phrase among other words, others that mean something else: all were said.
 
-    Where all free words are those of a free slot of a command, it is not small talk.
+    Where all free words are those of a free slot of a command, it is not small talk, nor where it
+    answers a form.
     """
     if found is None or not found.free:
         return
-    is_filled = bool(found.slots) and not found.around and not grammar.rules[found.rule].topics
     answers, fills = grammar.marked("answer"), grammar.marked("fills")
+    is_filled = bool(found.slots) and not found.around and not grammar.rules[found.rule].topics
+    is_filled |= found.rule in fills
     is_answer = turn.is_question_open and found.rule in answers
     for other in meanings(grammar, found.as_typed, answers if is_answer else rules):
         if is_filled and grammar.rules[other.rule].topics:
