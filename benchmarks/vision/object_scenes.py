@@ -30,6 +30,30 @@ LENS_BLUR, NOISE = 0.7, 6.0
 """Pixels, and levels of 255."""
 SMEAR = 4
 """Pixels by which motion smears a picture, less than that."""
+GLARE = 0.35
+"""Of the thing's longer side in the picture, how far a lamp that it mirrors spreads."""
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """What makes a thing hard to recognize; as it is, what is usual."""
+
+    roll: float = ROLL
+    """Radians to each side at most, as `tilt`."""
+    tilt: float = TILT
+    light: tuple[float, float] = LIGHT
+    blur: float = 0.0
+    """Pixels at most by which the lens is out of focus, beside what it always blurs."""
+    noise: float = NOISE
+    smear: int = 0
+    """Motion smears it by less than this many pixels."""
+    hidden: tuple[float, float] = (0.0, 0.0)
+    """Part of the thing that something else covers, from one side; between these two."""
+    glares: float = 0.0
+    """How often it mirrors a lamp, of 1."""
+
+
+USUAL, MOVING = Conditions(), Conditions(smear=SMEAR)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,46 +88,87 @@ def _large_enough(image: Image) -> Image:
     return np.asarray(cv2.resize(image, None, fx=scale, fy=scale), np.uint8)
 
 
-def by_height(stamp: Stamp, part: float, dice: np.random.Generator, smear: int = 0) -> Scene:
-    """A thing whose longer side is this part of the picture's height; motion smears it by less
-    than `smear` pixels.
-    """
+def by_height(
+    stamp: Stamp, part: float, dice: np.random.Generator, conditions: Conditions = USUAL
+) -> Scene:
+    """A thing whose longer side is this part of the picture's height."""
     longer = max(stamp.picture.shape[:2])
     focal = VIEW.focal_length(SIZE)
-    return _scene(stamp, focal / (part * SIZE[1]) * longer, 1.0, dice, smear)
+    return _scene(stamp, focal / (part * SIZE[1]) * longer, 1.0, dice, conditions)
 
 
-def by_distance(stamp: Stamp, meters: float, width: float, dice: np.random.Generator) -> Scene:
+def by_distance(
+    stamp: Stamp,
+    meters: float,
+    width: float,
+    dice: np.random.Generator,
+    conditions: Conditions = USUAL,
+) -> Scene:
     """A thing of a width, meters, its longer side, this many meters away."""
     longer = max(stamp.picture.shape[:2])
-    return _scene(stamp, meters / width * longer, width / longer, dice, 0)
+    return _scene(stamp, meters / width * longer, width / longer, dice, conditions)
 
 
 def _scene(
-    stamp: Stamp, depth: float, scale: float, dice: np.random.Generator, smear: int
+    stamp: Stamp, depth: float, scale: float, dice: np.random.Generator, conditions: Conditions
 ) -> Scene:
     """`depth` is in pixels of the thing's picture, `scale` meters to one of them."""
     focal = VIEW.focal_length(SIZE)
     reach = max(stamp.picture.shape[:2]) * focal / depth / 2
     x, y = (side / 2 + dice.uniform(-1, 1) * max(0.0, side / 2 - 1.25 * reach) for side in SIZE)
-    homography, center = _seen_from(stamp, x, y, depth, dice)
+    homography, center = _seen_from(stamp, x, y, depth, dice, conditions)
     thing, mask = (_warped(each, homography) for each in (stamp.picture, stamp.mask))
     cover = mask[..., None] / np.float32(255)
-    image = _room(dice) * (1 - cover) + thing * cover
-    return Scene(
-        stamp, _photographed(image, dice, smear), x, y, float(np.linalg.norm(center)) * scale
-    )
+    image: NDArray[np.floating] = _room(dice) * (1 - cover) + thing * cover
+    if conditions.glares and dice.random() < conditions.glares:
+        image += _glare(mask, reach, dice)[..., None]
+    if max(conditions.hidden) > 0:
+        image = _hidden(image, mask, dice.uniform(*conditions.hidden), dice)
+    seen = _photographed(image, dice, conditions)
+    return Scene(stamp, seen, x, y, float(np.linalg.norm(center)) * scale)
+
+
+def _hidden(
+    image: NDArray[np.floating], mask: Image, part: float, dice: np.random.Generator
+) -> NDArray[np.floating]:
+    """With a part of the thing behind something that comes in from one side."""
+    ys, xs = np.nonzero(mask > 127)
+    if not len(xs):
+        return image
+    toward = dice.uniform(0, math.tau)
+    depths = xs * math.cos(toward) + ys * math.sin(toward)
+    down, across = np.indices(mask.shape)
+    limit = np.quantile(depths, 1 - part)
+    behind = across * math.cos(toward) + down * math.sin(toward) > limit
+    near = cv2.dilate(mask, np.ones((31, 31), np.uint8)) > 127
+    return np.where((behind & near)[..., None], _room(dice).astype(np.float32), image)
+
+
+def _glare(mask: Image, reach: float, dice: np.random.Generator) -> NDArray[np.floating]:
+    """The light of a lamp that the thing mirrors."""
+    ys, xs = np.nonzero(mask > 127)
+    if not len(xs):
+        return np.zeros(mask.shape)
+    place = int(dice.integers(len(xs)))
+    down, across = np.indices(mask.shape)
+    away = np.hypot(across - xs[place], down - ys[place]) / (2 * reach * GLARE)
+    return np.asarray(255 * np.exp(-(away**2)) * (mask > 127))
 
 
 def _seen_from(
-    stamp: Stamp, x: float, y: float, depth: float, dice: np.random.Generator
+    stamp: Stamp,
+    x: float,
+    y: float,
+    depth: float,
+    dice: np.random.Generator,
+    conditions: Conditions,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """How its picture comes into the camera's, and where its center is, in its pixels."""
     height, width = stamp.picture.shape[:2]
     focal, toward = VIEW.focal_length(SIZE), dice.uniform(0, math.tau)
-    roll, _ = cv2.Rodrigues(np.array([0.0, 0.0, dice.uniform(-ROLL, ROLL)]))
+    roll, _ = cv2.Rodrigues(np.array([0.0, 0.0, dice.uniform(-conditions.roll, conditions.roll)]))
     axis = np.array([math.cos(toward), math.sin(toward), 0.0])
-    tilt, _ = cv2.Rodrigues(axis * dice.uniform(-TILT, TILT))
+    tilt, _ = cv2.Rodrigues(axis * dice.uniform(-conditions.tilt, conditions.tilt))
     turned = tilt @ roll
     middle = np.array([SIZE[0] / 2, SIZE[1] / 2])
     center = np.append((np.array([x, y]) - middle) / focal, 1.0) * depth
@@ -128,14 +193,17 @@ def _room(dice: np.random.Generator) -> Image:
     return room[top : top + SIZE[1], left : left + SIZE[0]]
 
 
-def _photographed(image: NDArray[np.floating], dice: np.random.Generator, smear: int) -> Image:
+def _photographed(
+    image: NDArray[np.floating], dice: np.random.Generator, conditions: Conditions
+) -> Image:
     """With the light, the blur, and the noise of a webcam."""
-    length, toward = int(dice.integers(max(1, smear))), dice.uniform(0, math.tau)
+    length, toward = int(dice.integers(max(1, conditions.smear))), dice.uniform(0, math.tau)
     kernel = np.zeros((7, 7), np.float32)
     end = 3 + length * math.cos(toward), 3 + length * math.sin(toward)
     cv2.line(kernel, (3, 3), (int(end[0]), int(end[1])), 1.0)
-    seen = cv2.filter2D(image * dice.uniform(*LIGHT), -1, kernel / kernel.sum())
-    seen = cv2.GaussianBlur(seen, (0, 0), LENS_BLUR) + dice.normal(0, NOISE, seen.shape)
+    seen = cv2.filter2D(image * dice.uniform(*conditions.light), -1, kernel / kernel.sum())
+    blur = LENS_BLUR + (dice.uniform(0, conditions.blur) if conditions.blur else 0.0)
+    seen = cv2.GaussianBlur(seen, (0, 0), blur) + dice.normal(0, conditions.noise, seen.shape)
     return np.asarray(np.clip(seen, 0, 255), np.uint8)
 
 
@@ -146,8 +214,8 @@ def film(
     for number in range(round(seconds * rate)):
         time = number / rate
         if int(time / 10) % 2 or not stamps:
-            image = _photographed(_room(dice).astype(np.float32), dice, SMEAR)
+            image = _photographed(_room(dice).astype(np.float32), dice, MOVING)
         else:
             stamp = stamps[int(time) % len(stamps)]
-            image = by_height(stamp, dice.uniform(0.2, 0.6), dice, SMEAR).image
+            image = by_height(stamp, dice.uniform(0.2, 0.6), dice, MOVING).image
         yield Frame(image, time, number)

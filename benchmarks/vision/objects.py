@@ -12,7 +12,18 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.progress import progress
-from benchmarks.vision.object_scenes import SIZE, SMEAR, VIEW, Scene, by_distance, by_height, film
+from benchmarks.vision.object_scenes import (
+    MOVING,
+    SIZE,
+    SMEAR,
+    USUAL,
+    VIEW,
+    Conditions,
+    Scene,
+    by_distance,
+    by_height,
+    film,
+)
 from benchmarks.vision.plain_matching import PlainMatching
 from benchmarks.vision.stamps import Stamp, generated, is_solid, read_stamps
 from hri.bench.figures import summary
@@ -79,10 +90,12 @@ def _scale(stamp: Stamp) -> float:
     return WIDTH / int(max(stamp.picture.shape[:2]))
 
 
-def _scenes(stamps: Sequence[Stamp], count: int, seed: int, smear: int = 0) -> Iterator[Scene]:
+def _scenes(
+    stamps: Sequence[Stamp], count: int, seed: int, conditions: Conditions = USUAL
+) -> Iterator[Scene]:
     dice = np.random.default_rng(SEED + seed)
     for _ in range(count):
-        yield by_height(stamps[int(dice.integers(len(stamps)))], HEIGHT, dice, smear)
+        yield by_height(stamps[int(dice.integers(len(stamps)))], HEIGHT, dice, conditions)
 
 
 def _is_right(scene: Scene, found: Sequence[FoundObject]) -> bool:
@@ -118,7 +131,7 @@ def _recall(count: int) -> Iterator[Row]:
 
 def _moving(recognizer: ObjectRecognizer, stamps: Sequence[Stamp], count: int) -> Row:
     right = wrong = 0
-    for scene in _scenes(stamps, count, 3, SMEAR):
+    for scene in _scenes(stamps, count, 3, MOVING):
         found = recognizer.recognize(scene.image)
         right, wrong = right + _is_right(scene, found), wrong + _is_wrong(scene, found)
     what = f"{len(stamps)} in the set, moving by up to {SMEAR - 1} pixels a picture: recall"

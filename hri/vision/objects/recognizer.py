@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import cv2
 import numpy as np
@@ -20,6 +19,7 @@ from hri.core.signals import FoundObject, Image
 from hri.vision.camera_view import CameraView
 from hri.vision.objects.descriptor_index import DescriptorIndex
 from hri.vision.objects.embedding import Embedding
+from hri.vision.objects.likeness import ALIKE, Homography, likeness, projected
 from hri.vision.objects.local_features import FeatureExtractor, Features, Points
 from hri.vision.objects.object_model import ModelSet, Outline, View
 from hri.vision.objects.plain_objects import PlainRecognizer
@@ -28,10 +28,8 @@ LEAST_VOTES = 4
 """Matches without which a view is not looked at closer."""
 LEAST_FOR_PLANE = 8
 """Matches from which a homography is fitted; fewer give an affine map."""
-ALIKE = 0.75
-"""Correlation with the learned picture that is enough, by chance never reached; ..."""
-SURE_INLIERS, SURELY_ALIKE = 16, 0.4
-"""... with this many features that agree, a part of the object may be hidden."""
+SURE_INLIERS = 16
+"""Features that agree, from which their map is not refined when what is there looks alike."""
 MOST_VIEWS = 12
 """Views that are looked at closer in one picture."""
 MOST_OBJECTS = 20
@@ -46,19 +44,10 @@ SMALLEST = 16.0
 """Pixels; sides of an object's box below it are not believed."""
 LARGEST = 6.0
 """Times as wide as the picture; a wider one is not believed."""
-PLAIN = 4.0
-"""Levels of gray; with less contrast two pictures cannot be compared."""
-LEAST_VISIBLE = 0.2
-"""Part of an object that must be within the picture."""
 SAME = 0.5
 """Part of the smaller outline from which two that overlap are of one thing: what stands out of its
 plane, as the parts of a motorcycle do, is seen by another map.
 """
-COMPARED = 160
-"""Pixels, longer side of the pictures that are compared."""
-
-Homography = NDArray[np.float64]
-"""Shape [3, 3]: from pixels of a view to those of the picture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +60,7 @@ class _Seen:
     outline: Outline
     inliers: int
     likeness: float
-    """Correlation of the picture with the learned one, at most 1."""
+    """To the learned picture, at most 1."""
 
 
 class ObjectRecognizer:
@@ -156,26 +145,26 @@ class ObjectRecognizer:
         """Where the view is, if its features lie as a plane would have them and it looks alike."""
         view, size = self._views[entry], (image.shape[1], image.shape[0])
         known = view.features.points[entries - self._starts[entry]]
-        homography, inliers = _mapped(known, features.points[queries])
+        homography, agreeing = _mapped(known, features.points[queries])
         if homography is None or not _is_plausible(homography, view, size):
             return None
-        likeness = _likeness(view, homography, image)
-        if inliers < SURE_INLIERS or likeness < ALIKE:
-            refined, count = _mapped(*self._guided(view, homography, features))
+        alike = likeness(view, homography, image, agreeing)
+        if len(agreeing) < SURE_INLIERS or alike < ALIKE:
+            refined, more = _mapped(*self._guided(view, homography, features))
             if refined is not None and _is_plausible(refined, view, size):
-                better = _likeness(view, refined, image)
-                if better > likeness:
-                    homography, inliers, likeness = refined, count, better
-        if likeness < (SURELY_ALIKE if inliers >= SURE_INLIERS else ALIKE):
+                better = likeness(view, refined, image, more)
+                if better > alike:
+                    homography, agreeing, alike = refined, more, better
+        if alike <= 0:
             return None
-        outline = _projected(homography, view.outline)
-        return _Seen(entry, homography, outline, inliers, likeness)
+        outline = projected(homography, view.outline)
+        return _Seen(entry, homography, outline, len(agreeing), alike)
 
     def _guided(
         self, view: View, homography: Homography, features: Features
     ) -> tuple[Points, Points]:
         """Matches near where a first map has them: here no other object has to be ruled out."""
-        expected = _projected(homography, view.features.points)
+        expected = projected(homography, view.features.points)
         low, high = expected.min(axis=0) - NEAR, expected.max(axis=0) + NEAR
         near = np.flatnonzero(((features.points >= low) & (features.points <= high)).all(axis=1))
         away = np.maximum(*np.abs(features.points[near].T[:, :, None] - expected.T[:, None]))
@@ -189,14 +178,14 @@ class ObjectRecognizer:
 
     def _described(self, seen: _Seen, size: tuple[int, int]) -> FoundObject:
         view = self._views[seen.entry]
-        x, y = map(float, _projected(seen.homography, _center(view.outline)[None])[0])
+        x, y = map(float, projected(seen.homography, _center(view.outline)[None])[0])
         bearing, elevation = self._view.toward(x, y, size)
         return FoundObject(
             name=self._names[seen.entry],
             x=x,
             y=y,
             outline=tuple((float(a), float(b)) for a, b in seen.outline),
-            confidence=max(0.0, seen.likeness) * (1 - 2.0 ** (-seen.inliers / LEAST_VOTES)),
+            confidence=seen.likeness * (1 - 2.0 ** (-seen.inliers / LEAST_VOTES)),
             distance=self._distance(view, seen.homography, size),
             bearing=bearing,
             elevation=elevation,
@@ -211,14 +200,9 @@ class ObjectRecognizer:
         corners = _box_corners(view.outline)
         plane = np.zeros((4, 3), np.float32)
         plane[:, :2] = (corners - _center(view.outline)) * view.scale
-        there = _projected(homography, corners)
+        there = projected(homography, corners)
         is_solved, _, moved = cv2.solvePnP(plane, there, camera, None, flags=cv2.SOLVEPNP_IPPE)
         return float(np.linalg.norm(moved)) if is_solved else math.nan
-
-
-def _projected(homography: Homography, points: Any) -> Outline:
-    shaped = np.asarray(points, np.float32).reshape(-1, 1, 2)
-    return np.asarray(cv2.perspectiveTransform(shaped, homography)[:, 0], np.float32)
 
 
 def _box_corners(outline: Outline) -> Outline:
@@ -260,49 +244,22 @@ def _is_covered(one: FoundObject, others: Sequence[FoundObject]) -> bool:
     return any(_inside(place, np.array(other.outline, np.float32))[0] for other in others)
 
 
-def _mapped(known: Points, places: Points) -> tuple[Homography | None, int]:
-    """The map from a view to the picture that most matches agree on, and how many do."""
+def _mapped(known: Points, places: Points) -> tuple[Homography | None, Points]:
+    """The map from a view to the picture that most matches agree on, and where in the view those
+    are.
+    """
     if len(known) < LEAST_VOTES:
-        return None, 0
+        return None, known[:0]
     if len(known) >= LEAST_FOR_PLANE:
         found, agreeing = cv2.findHomography(known, places, cv2.RANSAC, CLOSE, maxIters=TURNS)
         if found is not None and agreeing.sum() >= LEAST_FOR_PLANE:
-            return np.asarray(found, np.float64), int(agreeing.sum())
+            return np.asarray(found, np.float64), known[agreeing.ravel() > 0]
     affine, agreeing = cv2.estimateAffine2D(
         known, places, method=cv2.RANSAC, ransacReprojThreshold=1.5 * CLOSE, maxIters=TURNS
     )
     if affine is None or agreeing.sum() < LEAST_VOTES:
-        return None, 0
-    return np.vstack((affine, (0.0, 0.0, 1.0))), int(agreeing.sum())
-
-
-def _likeness(view: View, homography: Homography, image: Image) -> float:
-    """How well the picture, seen from where the view was learned, correlates with it."""
-    height, width = view.picture.shape[:2]
-    side = math.sqrt(cv2.contourArea(_projected(homography, view.outline)))
-    shrunk = min(COMPARED, side) / max(height, width)
-    scale = np.diag((shrunk, shrunk, 1.0))
-    size = max(8, round(width * shrunk)), max(8, round(height * shrunk))
-    way = scale @ np.linalg.inv(homography)
-    there = cv2.warpPerspective(image, way, size)
-    visible = cv2.warpPerspective(np.full(image.shape[:2], 255, np.uint8), way, size)
-    known = cv2.resize(view.picture, size, interpolation=cv2.INTER_AREA)
-    mask = np.zeros(size[::-1], np.uint8)
-    cv2.fillPoly(mask, [np.rint(view.outline * shrunk).astype(np.int32)], 255)
-    whole = np.count_nonzero(mask)
-    mask &= visible
-    if np.count_nonzero(mask) < LEAST_VISIBLE * whole:
-        return 0.0
-    one, other = (
-        cv2.GaussianBlur(cv2.cvtColor(each, cv2.COLOR_RGB2GRAY), (0, 0), 1.5)[mask > 0].astype(
-            float
-        )
-        for each in (there, known)
-    )
-    one, other = one - one.mean(), other - other.mean()
-    if min(one.std(), other.std()) < PLAIN:
-        return 0.0  # where all is of one color, noise decides
-    return float(one @ other / math.sqrt(max(one @ one, 1.0) * max(other @ other, 1.0)))
+        return None, known[:0]
+    return np.vstack((affine, (0.0, 0.0, 1.0))), known[agreeing.ravel() > 0]
 
 
 def _is_plausible(homography: Homography, view: View, size: tuple[int, int]) -> bool:
@@ -311,7 +268,7 @@ def _is_plausible(homography: Homography, view: View, size: tuple[int, int]) -> 
     depths = np.c_[corners, np.ones(4)] @ homography[2]
     if (depths > 0).any() != (depths > 0).all():
         return False
-    box = _projected(homography, corners)
+    box = projected(homography, corners)
     if not np.isfinite(box).all() or np.ptp(box, axis=0).max() > LARGEST * max(size):
         return False
     edges = np.roll(box, -1, axis=0) - box

@@ -92,6 +92,39 @@ def test_a_third_of_an_object_may_be_hidden():
     assert names(image) == ["cup"]
 
 
+@pytest.mark.parametrize("number", range(8))
+def test_nearly_half_of_an_object_may_be_hidden_from_any_side(number):
+    image = standing("cup", 0.6)
+    toward = number * math.tau / 8
+    down, across = np.indices(image.shape[:2])
+    depth = (across - 320) * math.cos(toward) + (down - 252) * math.sin(toward)
+    image[depth > 5] = room(3)[depth > 5]
+    assert names(noisy(image)) == ["cup"]
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_a_magazine_is_not_taken_for_another_issue_of_it(number):
+    """They share the title, the colors, and the places of everything else."""
+    dice = np.random.default_rng(number)
+    issue, other = np.full((2, 360, 270, 3), 230, np.uint8)
+    for page, word in ((issue, "alpine"), (other, "harbor")):
+        cv2.putText(page, "WEEKLY", (10, 60), cv2.FONT_HERSHEY_TRIPLEX, 1.9, (30, 30, 90), 3)
+        picture = dice.integers(0, 256, (7, 12, 3)).repeat(20, axis=0).repeat(20, axis=1)
+        page[90:230, 15:255] = cv2.GaussianBlur(picture.astype(np.uint8), (0, 0), 2.0)
+        cv2.putText(page, word, (20, 290), cv2.FONT_HERSHEY_DUPLEX, 1.7, (0, 0, 0), 2)
+    flat = np.float32([[0, 0], [270, 0], [270, 360], [0, 360]])
+    known = ObjectModel("magazine", (view_of(issue, flat, SIFT),))
+    recognizer = ObjectRecognizer(ModelSet(SIFT, (known,)), VIEW)
+
+    def found(page):
+        image = room(number)
+        image[60:420, 180:450] = page
+        return [one.name for one in recognizer.recognize(noisy(image))]
+
+    assert found(issue) == ["magazine"]
+    assert found(other) == []
+
+
 @settings(max_examples=20)
 @given(st.integers(0, 10_000), st.sampled_from(("dog", "car", "flower", "")))
 def test_what_is_not_in_the_set_has_no_name(seed, stranger):
