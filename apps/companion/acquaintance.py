@@ -251,7 +251,7 @@ async def ask_for(
     known.memory.note_asked(person.id, relation, "", question)
     if not await _learn(context, companion, known, relation, question):
         return "unanswered"
-    await _after_the_reply(context, companion)
+    await after_the_reply(context, companion)
     return "told"
 
 
@@ -320,7 +320,7 @@ async def _introduce(
     context: TaskContext, companion: Companion, name: str, heard: HeardSlot | None
 ) -> None:
     known, wall = Acquaintance.of(context), context.clock.wall()
-    await _after_the_reply(context, companion)
+    await after_the_reply(context, companion)
     name = as_name(name)
     phones: tuple[str, ...] = ()
     if heard is not None:
@@ -350,7 +350,7 @@ async def _introduce(
         await _ask_about(context, companion, known, person.id, question)
 
 
-async def _after_the_reply(context: TaskContext, companion: Companion) -> None:
+async def after_the_reply(context: TaskContext, companion: Companion) -> None:
     """Let it say what it answers at once."""
     await context.clock.sleep(BREATH)
     while companion.talk.is_busy:

@@ -9,6 +9,7 @@ from hri.robot import find_object
 from hri.task import TaskContext, immediate
 from hri.vision import NoCamera, NothingShown, forget_object, learn_object, objects_of
 
+from .acquaintance import after_the_reply
 from .companion import Companion
 from .hands import POINTED_FOR, pointed_at
 
@@ -26,6 +27,7 @@ def learn(context: TaskContext, thing: str) -> None:
 
 
 async def _learn(context: TaskContext, companion: Companion, thing: str) -> None:
+    await after_the_reply(context, companion)  # which asks to hold it up
     try:
         await learn_object(context, thing, LOOKING_S)
     except NoCamera:

@@ -17,6 +17,7 @@ from benchmarks.vision import (
     pose,
     recordings,
     returning,
+    shown_things,
     videos,
 )
 from hri.bench.table import Parts
@@ -34,6 +35,7 @@ PARTS: Parts = {
     "nods": lambda quick: nods.rows(quick, WORKERS),
     "objects": objects.rows,
     "half-hidden things": half_hidden.rows,
+    "things that are shown": shown_things.rows,
     "colors": colors.rows,
     "markers": markers.rows,
     "films": lambda quick: videos.rows(quick, WORKERS),

@@ -53,6 +53,10 @@ class Conditions:
     """How often it mirrors a lamp, of 1."""
 
 
+STEADY = Conditions(light=(0.95, 1.05))
+"""Of a film: exposure changes a little."""
+TURNED, TURN_S, SWAY = math.radians(35), 5.0, 0.01
+"""To each side, seconds of turning to and fro, and meters by which a hand sways."""
 USUAL, MOVING = Conditions(), Conditions(smear=SMEAR)
 
 
@@ -162,9 +166,8 @@ def _seen_from(
     depth: float,
     dice: np.random.Generator,
     conditions: Conditions,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[NDArray[np.float64], NDArray[np.floating]]:
     """How its picture comes into the camera's, and where its center is, in its pixels."""
-    height, width = stamp.picture.shape[:2]
     focal, toward = VIEW.focal_length(SIZE), dice.uniform(0, math.tau)
     roll, _ = cv2.Rodrigues(np.array([0.0, 0.0, dice.uniform(-conditions.roll, conditions.roll)]))
     axis = np.array([math.cos(toward), math.sin(toward), 0.0])
@@ -172,9 +175,18 @@ def _seen_from(
     turned = tilt @ roll
     middle = np.array([SIZE[0] / 2, SIZE[1] / 2])
     center = np.append((np.array([x, y]) - middle) / focal, 1.0) * depth
+    return _placed(stamp, turned, center), center
+
+
+def _placed(
+    stamp: Stamp, turned: NDArray[np.floating], center: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """How its picture comes into the camera's, from a rotation and a place in its pixels."""
+    height, width = stamp.picture.shape[:2]
+    focal, middle = VIEW.focal_length(SIZE), (SIZE[0] / 2, SIZE[1] / 2)
     camera = np.array([[focal, 0, middle[0]], [0, focal, middle[1]], [0, 0, 1]])
     centered = np.array([[1, 0, -width / 2], [0, 1, -height / 2], [0, 0, 1]])
-    return camera @ np.c_[turned[:, 0], turned[:, 1], center] @ centered, center
+    return np.asarray(camera @ np.c_[turned[:, 0], turned[:, 1], center] @ centered)
 
 
 def _warped(image: Image, homography: NDArray[np.float64]) -> Image:
@@ -205,6 +217,37 @@ def _photographed(
     blur = LENS_BLUR + (dice.uniform(0, conditions.blur) if conditions.blur else 0.0)
     seen = cv2.GaussianBlur(seen, (0, 0), blur) + dice.normal(0, conditions.noise, seen.shape)
     return np.asarray(np.clip(seen, 0, 255), np.uint8)
+
+
+def turned_before_room(
+    stamp: Stamp,
+    meters: float,
+    width: float,
+    seconds: float,
+    every: float,
+    dice: np.random.Generator,
+) -> Iterator[Image]:
+    """A film of a thing that is turned to and fro before a room that stands still."""
+    room = _room(dice).astype(np.float32)
+    scale = width / max(stamp.picture.shape[:2])
+    start = dice.uniform(0, math.tau)
+    for time in np.arange(0, seconds, every).tolist():
+        yaw, roll = TURNED * math.sin(time * math.tau / TURN_S + start), 0.1 * math.sin(1.3 * time)
+        turned = cv2.Rodrigues(np.array([0, yaw, 0]))[0] @ cv2.Rodrigues(np.array([0, 0, roll]))[0]
+        center = (
+            np.array([SWAY * math.sin(2.1 * time), SWAY * math.cos(1.7 * time), meters]) / scale
+        )
+        homography = _placed(stamp, turned, center)
+        thing, mask = (_warped(each, homography) for each in (stamp.picture, stamp.mask))
+        cover = mask[..., None] / np.float32(255)
+        yield _photographed(room * (1 - cover) + thing * cover, dice, STEADY)
+
+
+def empty_room(seconds: float, every: float, dice: np.random.Generator) -> Iterator[Image]:
+    """A film of a room in which nothing moves."""
+    room = _room(dice).astype(np.float32)
+    for _ in np.arange(0, seconds, every):
+        yield _photographed(room, dice, STEADY)
 
 
 def film(

@@ -566,17 +566,17 @@ def test_it_learns_a_thing_names_it_finds_it_and_forgets_it(tmp_path, monkeypatc
         held_up = Pose2D(heading=visitor)
         world.place("a label", *placed(held_up, 0.8, 0.0))
         away = placed(held_up, -1.5, 0.8)
-        robot.clock.call_at(18.0, lambda: world.place("a label", *away))
+        robot.clock.call_at(22.0, lambda: world.place("a label", *away))
 
     lines = {
         1: "this is my cup",
-        13: "where is my cup",
-        19: "you may move",
-        23: "find my cup",
-        38: "forget the cup",
-        43: "forget the cup",
+        17: "where is my cup",
+        23: "you may move",
+        27: "find my cup",
+        42: "forget the cup",
+        47: "forget the cup",
     }
-    visit = Visit(48, lines, prepare=show, devices=SEEING)
+    visit = Visit(52, lines, prepare=show, devices=SEEING)
     said = visit.said()
     assert "Got it. Now I know your cup." in said
     assert any(one.startswith("I see your cup on my left") for one in said)
@@ -590,8 +590,9 @@ def test_it_learns_a_thing_names_it_finds_it_and_forgets_it(tmp_path, monkeypatc
 @pytest.mark.slow
 def test_who_holds_up_nothing_is_told_so_and_no_picture_of_them_is_kept(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
-    visit = Visit(9, {1: "this is my cup"}, devices=SEEING)
+    visit = Visit(13, {1: "this is my cup"}, devices=SEEING)
     assert visit.said()[-1] == "I don't see your cup. Hold it up close, and say: this is my cup."
+    assert visit.named("object.learning")[0].time >= visit.named("speech.finished")[0].time
     reasons = {event.properties["reason"] for event in visit.named("object.learning")}
     assert reasons == {"a face is in it"}
     assert list(tmp_path.iterdir()) == []

@@ -72,16 +72,17 @@ def run(options: argparse.Namespace) -> int:
     path = own_models() if options.models is None else Path(options.models)
     models = load_or_new(path, options.features)
     learner, left_out = ObjectLearner(options.name, models), LeftOut()
-    shown = _from_files(options, left_out) if options.images else _from_camera(options)
+    pictures = _from_files(options, left_out) if options.images else _from_camera(options)
     is_blind = True
-    for image, held_up, source, focal_length in shown:
+    for image, held_up, source, focal_length in pictures:
         is_blind = False
         if (outline := held_up.outline) is None:
             learner.refuse(held_up.reason)
             report(f"{source}: not kept: {held_up.reason}", flush=True)
             continue
         scale = _scale(options, outline, focal_length)
-        _print(learner, learner.show(image, outline, scale, source), source)
+        shown = learner.show(image, outline, scale, source, has_moved=held_up.has_moved)
+        _print(learner, shown, source)
     if is_blind and left_out.count:
         raise HriError(f"no picture to learn {options.name} from - give one that can be read")
     model = learner.model(date.today().isoformat())

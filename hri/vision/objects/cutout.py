@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.signals import FaceBox, Image
+from hri.core.signals import Image
 from hri.vision.objects.object_model import Outline
 
 MIDDLE = 0.6
@@ -25,6 +25,8 @@ CORNER = 0.006
 """How far an outline may be simplified, as a part of its length."""
 COARSE = 160
 """Pixels, width of the picture in which an object is cut out of a room."""
+AROUND = 0.3
+"""Sizes of what moves: the breadth of the room around it that is looked at."""
 LONGEST = 16
 """Times the shorter side; nothing is held up in a picture that is longer."""
 
@@ -64,40 +66,58 @@ def on_even_background(image: Image) -> Outline:
     return whole(image) if outline is None else outline
 
 
-def before(image: Image, background: Image) -> Outline | None:
-    """What has come before a background that the same camera saw; None when nothing has."""
-    blurred = [cv2.GaussianBlur(each, (0, 0), 2.0).astype(np.int16) for each in (image, background)]
-    return _largest((np.abs(blurred[0] - blurred[1]).max(axis=2) > DIFFERENT).astype(np.uint8))
-
-
-def in_the_middle(image: Image, faces: Iterable[FaceBox] = ()) -> Outline | None:
+def in_the_middle(
+    image: Image, hidden: Iterable[Outline] = (), moving: Mask | None = None
+) -> Outline | None:
     """What is held in the middle of a picture of a room (Rother et al., "GrabCut", 2004).
 
-    A face that looks over it does not belong to it. None when nothing stands out.
+    `hidden` are outlines of what does not belong to it: faces that look over it, and hands.
+    `moving` is where it can be, as far as it was seen to move, of the size of `coarse`; else it can
+    be anywhere in the middle. None when nothing stands out.
     """
     if max(image.shape[:2]) > LONGEST * min(image.shape[:2]):
         return None
-    scale = COARSE / image.shape[1]
-    small = np.asarray(
-        cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8
-    )
-    (left, top), _, (right, bottom), _ = middle(small).astype(int).tolist()
-    mask = np.zeros(small.shape[:2], np.uint8)
+    small = coarse(image)
+    scale = small.shape[1] / image.shape[1]
+    possible = np.zeros(small.shape[:2], np.uint8)
+    if moving is None:
+        (left, top), _, (right, bottom), _ = middle(small).astype(int).tolist()
+        possible[top:bottom, left:right] = 1
+    else:
+        possible[:] = cv2.dilate(moving, np.ones((3, 3), np.uint8))
+    for outline in hidden:
+        cv2.fillPoly(possible, [np.rint(outline * scale).astype(np.int32)], 0)
+    if not possible.any():
+        return None
+    near = (slice(None), slice(None)) if moving is None else _around(possible)
+    mask = np.where(possible[near] > 0, cv2.GC_PR_FGD, cv2.GC_BGD).astype(np.uint8)
+    if (mask == cv2.GC_PR_FGD).all():
+        return None
     models = np.zeros((1, 65)), np.zeros((1, 65))
     cv2.setRNGSeed(0)
-    mask[top:bottom, left:right] = cv2.GC_PR_FGD
-    for face in faces:
-        across, down = (
-            slice(max(0, int(low * scale)), max(0, int(high * scale)))
-            for low, high in ((face.x, face.x + face.width), (face.y, face.y + face.height))
-        )
-        mask[down, across] = cv2.GC_BGD
-    if not (mask == cv2.GC_PR_FGD).any():
-        return None
     no_box = (0, 0, 0, 0)  # the mask says it all
-    cv2.grabCut(small[..., ::-1].copy(), mask, no_box, *models, 3, cv2.GC_INIT_WITH_MASK)
-    outline = _largest((mask & 1).astype(np.uint8))
-    return None if outline is None else np.asarray(outline / scale, np.float32)
+    cv2.grabCut(small[near][..., ::-1].copy(), mask, no_box, *models, 3, cv2.GC_INIT_WITH_MASK)
+    found = np.zeros(small.shape[:2], np.uint8)
+    found[near] = mask & 1
+    largest = _largest(found)
+    return None if largest is None else np.asarray(largest / scale, np.float32)
+
+
+def coarse(image: Image) -> Image:
+    """The picture in which an object is cut out of a room."""
+    scale = COARSE / image.shape[1]
+    size = COARSE, max(1, round(image.shape[0] * scale))
+    return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8)
+
+
+def _around(mask: Mask) -> tuple[slice, slice]:
+    """What is near it: farther away the room may have the thing's colors."""
+    left, top, width, height = cv2.boundingRect(mask)
+    margin = max(4, round(AROUND * max(width, height)))
+    return (
+        slice(max(0, top - margin), top + height + margin),
+        slice(max(0, left - margin), left + width + margin),
+    )
 
 
 def _largest(mask: Mask, *, has_parts: bool = False) -> Outline | None:

@@ -1,7 +1,8 @@
 """What is held up before a camera; pictures of someone's face and of the room alone teach nothing.
 
-One picture does not separate a thing from its background. So the area that is taken for the thing
-must have an edge around it, and no face may be in it or where it is to be held.
+What moves while the room stands still is the thing, without the hand that holds it. One picture
+alone does not separate a thing from its background. So the area that is taken for the thing must
+have an edge around it, and no face may be in it or where it is to be held.
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ import numpy as np
 
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.detector_choice import load_detectors
-from hri.vision.objects.cutout import in_the_middle, middle, whole
+from hri.vision.objects.cutout import COARSE, Mask, coarse, in_the_middle, middle, whole
+from hri.vision.objects.holding_hands import HandFinder
+from hri.vision.objects.moving import MovingThing
 from hri.vision.objects.object_model import Outline
 
 SURE = 0.66
@@ -27,8 +30,6 @@ BESIDE = 0.02
 """Parts of the picture's width; so far on both sides of an edge the colors are compared."""
 DIFFERENT = 16
 """Levels of a color by which they differ."""
-WIDTH = 160
-"""Pixels of the picture in which that is looked at."""
 A_FACE, NOTHING = "a face is in it", "nothing is held up"
 """Why a picture teaches nothing."""
 
@@ -39,28 +40,39 @@ class HeldUp:
 
     outline: Outline | None
     reason: str = ""
+    has_moved: bool = False
+    """Whether it is known by its motion."""
 
 
 class HeldUpFinder:
-    """Looks for the thing that is held up in the middle of a picture."""
+    """Looks for the thing that is held up in the middle of the pictures of a camera at rest."""
 
     def __init__(self, *, is_whole: bool = False) -> None:
         """`is_whole`: the thing fills the pictures."""
         self._finder = load_detectors().finder
+        self._hands = HandFinder()
+        self._moving = MovingThing()
         self._is_whole = is_whole
 
     def find(self, image: Image, faces: Iterable[FaceBox] = ()) -> HeldUp:
         """`image` is uint8, [height, width, 3], RGB; `faces` are those that are known already."""
-        seen = self._near_faces(image)
-        boxes = [*faces, *seen]
-        outline = whole(image) if self._is_whole else in_the_middle(image, boxes)
+        boxes = [*faces, *self._near_faces(image)]
+        moving = None if self._is_whole else self._moving.look(coarse(image))
+        if self._is_whole:
+            outline: Outline | None = whole(image)
+        else:
+            hidden = [*map(_corners, boxes), *self._hands.find(image)]
+            outline = in_the_middle(image, hidden, moving)
+        taken = [_filled(image, outline)] + ([] if moving is None else [moving])
         place = middle(image)
         for box in boxes:
-            if _is_inside(box, place) or _share(image, box, outline) > COVERED:
+            # A face that looks on from the room stands still.
+            is_in_place = moving is None and _is_inside(box, place)
+            if is_in_place or max(_share(box, mask, image) for mask in taken) > COVERED:
                 return HeldUp(None, A_FACE)
         if outline is None or not (self._is_whole or _is_edged(image, outline)):
             return HeldUp(None, NOTHING)
-        return HeldUp(outline)
+        return HeldUp(outline, has_moved=moving is not None)
 
     def _near_faces(self, image: Image) -> list[FaceBox]:
         """Those as near as whoever holds the thing up."""
@@ -70,18 +82,28 @@ class HeldUpFinder:
         return [face.box for face in self._finder.find(image, large) if face.score >= SURE]
 
 
+def _corners(box: FaceBox) -> Outline:
+    right, bottom = box.x + box.width, box.y + box.height
+    return np.array([(box.x, box.y), (right, box.y), (right, bottom), (box.x, bottom)], np.float32)
+
+
 def _is_inside(box: FaceBox, place: Outline) -> bool:
     center = box.x + box.width / 2, box.y + box.height / 2
     return cv2.pointPolygonTest(place, center, False) >= 0
 
 
-def _share(image: Image, box: FaceBox, outline: Outline | None) -> float:
-    """The part of a face that lies within an outline."""
-    if outline is None:
-        return 0.0
-    scale = WIDTH / image.shape[1]
-    mask = np.zeros((max(1, round(image.shape[0] * scale)), WIDTH), np.float32)
-    cv2.fillPoly(mask, [np.rint(outline * scale).astype(np.int32)], 1.0)
+def _filled(image: Image, outline: Outline | None) -> Mask:
+    """1 within an outline, in a picture of the size of `coarse`."""
+    mask: Mask = np.zeros((max(1, round(image.shape[0] * COARSE / image.shape[1])), COARSE), "u1")
+    if outline is not None:
+        corners = np.rint(outline * (COARSE / image.shape[1])).astype(np.int32)
+        cv2.fillPoly(mask, [corners], 1)
+    return mask
+
+
+def _share(box: FaceBox, mask: Mask, image: Image) -> float:
+    """The part of a face that a mask of the size of `coarse` covers."""
+    scale = COARSE / image.shape[1]
     across, down = (
         slice(max(0, int(low * scale)), max(0, int(high * scale)) + 1)
         for low, high in ((box.x, box.x + box.width), (box.y, box.y + box.height))
@@ -92,7 +114,7 @@ def _share(image: Image, box: FaceBox, outline: Outline | None) -> float:
 
 def _is_edged(image: Image, outline: Outline) -> bool:
     """Whether colors differ across most of an outline: where the room goes on, they do not."""
-    scale = WIDTH / image.shape[1]
+    scale = COARSE / image.shape[1]
     small = cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
     soft = cv2.GaussianBlur(small, (0, 0), 0.8).astype(np.int16)
     corners = outline.astype(np.float64) * scale
@@ -107,7 +129,7 @@ def _is_edged(image: Image, outline: Outline) -> bool:
         normals.append(np.repeat(across[None], len(steps), axis=0))
     if not places:
         return False
-    at, aside = np.concatenate(places), np.concatenate(normals) * BESIDE * WIDTH
+    at, aside = np.concatenate(places), np.concatenate(normals) * BESIDE * COARSE
     last = np.array([soft.shape[1] - 1, soft.shape[0] - 1])
     one, other = (np.clip(np.rint(at + way), 0, last).astype(int) for way in (aside, -aside))
     differences = np.abs(soft[one[:, 1], one[:, 0]] - soft[other[:, 1], other[:, 0]])

@@ -97,6 +97,8 @@ class ObjectLearner:
         self._others = ObjectRecognizer(others.without(name))
         self._views: list[View] = []
         self._known: ObjectRecognizer | None = None
+        self._has_moved = False
+        """Whether the views are of a thing that is known by its motion."""
         self._refused: list[str] = []
         """Why pictures were not looked at closer."""
 
@@ -104,13 +106,29 @@ class ObjectLearner:
         """Take note of a picture that shows no object."""
         self._refused.append(reason)
 
-    def show(self, image: Image, outline: Outline, scale: float = 0.0, source: str = "") -> Shown:
-        """Look at one more picture; its view is kept when it shows something new."""
+    def show(
+        self,
+        image: Image,
+        outline: Outline,
+        scale: float = 0.0,
+        source: str = "",
+        *,
+        has_moved: bool = False,
+    ) -> Shown:
+        """Look at one more picture; its view is kept when it shows something new.
+
+        A thing that was seen to move is surely cut out of the room: from the first such picture on
+        only they count, and views that were kept before are dropped.
+        """
         view = view_of(image, outline, self._method, scale, source)
         others = self._others.recognize(view.picture)
         mistaken = others[0].name if others else ""
         if view.is_plain and not is_colorful(view):
             return Shown(view, False, f"too plain: {len(view.features)} features", mistaken)
+        if self._has_moved and not has_moved:
+            return Shown(view, False, "stands still", mistaken)
+        if has_moved and not self._has_moved:
+            self._views, self._known, self._has_moved = [], None, True
         if len(self._views) >= MOST_VIEWS:
             return Shown(view, False, f"{MOST_VIEWS} views are enough", mistaken)
         if self._known is not None:

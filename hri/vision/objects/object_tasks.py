@@ -204,7 +204,13 @@ class _Lesson:
         if held_up.outline is None:
             self._learner.refuse(held_up.reason)
             return _Progress(self._learner.count, reason=held_up.reason)
-        shown = self._learner.show(question.image, held_up.outline, question.scale, "held up")
+        shown = self._learner.show(
+            question.image,
+            held_up.outline,
+            question.scale,
+            "held up",
+            has_moved=held_up.has_moved,
+        )
         return _Progress(self._learner.count, shown.is_new, shown.reason, shown.mistaken)
 
     def _save(self, day: str) -> _Progress:

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 from hri.vision.objects.cutout import (
-    before,
     in_the_middle,
     on_even_background,
     opaque,
@@ -46,11 +45,6 @@ def test_what_is_transparent_is_not_the_object():
     assert box_of(opaque(room(), mask)) == pytest.approx((210, 110, 390, 290), abs=6)
     assert opaque(room(), mask * 0) is None
     assert np.array_equal(opaque(room(), mask * 0 + 255), whole(room()))
-
-
-def test_what_has_come_before_a_known_background_is_cut_out():
-    assert box_of(before(noisy(with_label(room())), noisy(room(), 1))) == pytest.approx(BOX, abs=8)
-    assert before(noisy(room()), noisy(room(), 1)) is None
 
 
 def test_what_is_held_in_the_middle_is_cut_out_of_a_room():

@@ -39,6 +39,14 @@ def test_a_side_that_is_new_is_kept_and_one_that_was_seen_is_not():
         assert [one.name for one in recognizer.recognize(standing(side, 0.7))] == ["box"]
 
 
+def test_views_of_a_thing_that_moves_take_the_place_of_what_was_taken_for_it_before():
+    learner = ObjectLearner("cup", ModelSet(SIFT))
+    assert shown(learner, printed_label("room")).is_new
+    assert shown(learner, printed_label("cup"), has_moved=True).is_new
+    assert shown(learner, printed_label("wall")).reason == "stands still"
+    assert learner.count == 1
+
+
 def test_what_looks_like_another_object_is_reported_at_once():
     learner = ObjectLearner("mug", learned("cup", "key"))
     assert shown(learner, noisy(printed_label("cup"))).mistaken == "cup"
