@@ -98,7 +98,7 @@ def is_night(hour: int, quiet_hours: tuple[int, int] = NIGHT) -> bool:
 
 def why_silent(scene: Scene, importance: Importance = Importance.CHAT) -> str:
     """Why the robot must not begin to speak; empty when it may."""
-    now, silence = scene.now, scene.now - max(scene.understood, scene.voice, scene.spoke)
+    now, silence = scene.now, scene.now - max(scene.understood, scene.voice)
     always = {
         "someone speaks": scene.is_voice_heard,
         "it speaks": scene.is_speaking,
@@ -110,7 +110,7 @@ def why_silent(scene: Scene, importance: Importance = Importance.CHAT) -> str:
         "it is night": is_night(scene.hour, scene.quiet_hours),
         "a dialogue goes on": now - scene.dialogue < DIALOGUE_SECONDS,
         "someone told it something sad": now - scene.tender < TENDER_SECONDS,
-        "someone spoke just now": silence < BREATH_SECONDS,
+        "someone spoke just now": min(silence, now - scene.spoke) < BREATH_SECONDS,
     }
     patience = COMPANY_SECONDS if scene.is_seen else UNSEEN_SECONDS
     for_chat = {

@@ -51,7 +51,7 @@ def test_it_may_begin_when_someone_is_there_and_nothing_goes_on():
         ({"dialogue": 981.0}, "a dialogue goes on"),
         ({"voice": 995.0}, "someone spoke just now"),
         ({"understood": 995.0}, "someone spoke just now"),
-        ({"spoke": 995.0}, "someone spoke just now"),
+        ({"spoke": 999.0}, "someone spoke just now"),
         ({"understood": 900.0}, "no one is there"),
         ({"understood": NEVER}, "no one is there"),
         ({"is_seen": False, "understood": 975.0}, "no one is there"),

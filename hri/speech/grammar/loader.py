@@ -432,7 +432,7 @@ class _Loader:
             name = rule.key.removeprefix(file.prefix)
             line = first.span.line
             self._report(
-                file, span, f"<{name}> is already defined in line {line}", "mapped one of the two"
+                file, span, f"<{name}> is already defined in line {line}", "rename one of the two"
             )
 
     def _list_rule(self, file: _File, use: NameListImport) -> Rule | None:

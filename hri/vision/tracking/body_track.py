@@ -140,7 +140,7 @@ class BodyTrack:
 
     def contradicts(self, time: float, face: Place) -> bool:
         """Whether a face cannot be theirs, because their body was seen elsewhere a moment ago."""
-        if self.place is None or time - self.seen > MOMENT:
+        if self.place is None or self.rested == self.seen or time - self.seen > MOMENT:
             return False
         here = self.expected(time)
         away = math.hypot(face.x - here.x, face.y - here.y) / here.breadth
