@@ -139,8 +139,12 @@ class BodyTrack:
             self._fit = min(1 / MISFIT, max(MISFIT, self._fit + FITTING * (fit - self._fit)))
 
     def contradicts(self, time: float, face: Place) -> bool:
-        """Whether a face cannot be theirs, because their body was seen elsewhere a moment ago."""
-        if self.place is None or self.rested == self.seen or time - self.seen > MOMENT:
+        """Whether a face cannot be theirs, because their body was seen elsewhere a moment ago.
+
+        Who has just lost their face may have moved in a jerk: their body does not say so yet.
+        """
+        is_followed = self.seen - self.rested > MOMENT
+        if self.place is None or not is_followed or time - self.seen > MOMENT:
             return False
         here = self.expected(time)
         away = math.hypot(face.x - here.x, face.y - here.y) / here.breadth
