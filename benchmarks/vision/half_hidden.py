@@ -12,7 +12,7 @@ from benchmarks.vision.covers import ISSUES, cover
 from benchmarks.vision.object_scenes import VIEW, Conditions, Scene, by_distance
 from benchmarks.vision.plain_matching import PlainMatching
 from benchmarks.vision.stamps import Stamp, read_stamps
-from hri.bench.table import Row, at_least, share
+from hri.bench.table import Row, at_least, at_most, share
 from hri.bench.threads import one_thread
 from hri.core.signals import FoundObject
 from hri.vision.objects.learning import view_of
@@ -30,6 +30,9 @@ HIDDEN = {0.3: 0.75, 0.4: 0.75, 0.5: 0.6}
 SCENES, QUICK_SCENES = 100, 15
 STRANGERS, QUICK_STRANGERS = 300, 45
 SETS = (20, 100)
+MIXED_FOUND = {20: 0.75, 100: 0.65}
+MOST_NAMED = {20: 0.0, 100: 0.01}
+"""By the size of the set."""
 FAR = 0.3, 1.5
 """Meters, where things are seen in all ways."""
 MIXED = Conditions(
@@ -105,7 +108,7 @@ def _mixed(recognizer: ObjectRecognizer, things: Sequence[Stamp], count: int) ->
         right += _is_right(scene, found)
         wrong += any(one.name != thing.name for one in found)
     what = f"{len(things)} in the set, turned, tilted, dark, blurred, hidden, far at once: found"
-    return share(what, right, count, None) | {"wrong_names": wrong}
+    return share(what, right, count, at_least(MIXED_FOUND[len(things)])) | {"wrong_names": wrong}
 
 
 def _strangers(
@@ -128,4 +131,5 @@ def _strangers(
         scene = by_distance(stranger, METERS, WIDTH, dice)
         names[kind] += bool(recognizer.recognize(scene.image))
     what = f"{len(things)} in the set, unknown things, a third other issues of magazines: named"
-    return share(what, sum(names.values()), count, None) | {"of_magazines": names["alike"]}
+    limit = at_most(MOST_NAMED[len(things)])
+    return share(what, sum(names.values()), count, limit) | {"of_magazines": names["alike"]}

@@ -98,7 +98,7 @@ def _under(family: Family, name: str, behind: Sequence[Image], count: int) -> It
         scene = shown(family, id, behind[number % len(behind)], CONDITIONS[name], draw)
         _ours(reader, scene, own)
         _peer(plain, scene, other)
-    is_judged = name.startswith("34 px")
+    is_judged = "34 px" in name
     what = f"{family.name}, {name}"
     row = share(f"found: {what}", own.found, count, at_least(FOUND) if is_judged else None)
     peer = {"opencv_found": round(other.found / count, 3), "opencv_wrong": other.wrong}

@@ -72,7 +72,7 @@ def _films(stamps: Sequence[Stamp], count: int) -> Iterator[Row]:
     yield share(what + "found in other rooms", found, tries, at_least(FOUND)) | more
     yield share(what + "named in rooms without", named, learned * ROOMS, at_most(0.0))
     # Some of the photographs show a thing in the middle, such as a cup.
-    yield share("rooms where nothing is held up: learned", nothing, count, None)
+    yield share("rooms where nothing is held up: learned", nothing, count, at_most(0.0))
 
 
 def _learned(film: Iterator[Image]) -> ObjectModel | None:

@@ -6,7 +6,7 @@ from hri.core import FakeClock, paths
 from hri.robot import Robot
 from hri.speech.behaviors import Listener
 from hri.testing.dialogues import TYPED, played, read_dialogues
-from tests.apps.test_manners import typed
+from tests.apps.test_manners import questions, typed
 from tests.robot.skills import skill, with_rule
 
 SKILLS = paths.house() / "apps" / "companion" / "skills"
@@ -156,3 +156,10 @@ def test_what_skills_draw_by_lot_is_repeated_by_the_seed():
         return [robot.context.chance.randint(1, 6) for _ in range(20)]
 
     assert drawn(1) == drawn(1) != drawn(2)
+
+
+@pytest.mark.parametrize("line", ["tell me a story about a dragon", "look at my card"])
+def test_stop_ends_what_a_skill_does_in_several_steps(line):
+    visit = typed(20.0, {1.0: line, 4.0: "stop"})
+    late = [event.properties["text"] for event in visit.named("speech.said") if event.time > 4.0]
+    assert [text for text in late if text not in questions(visit)] == ["I stopped."]

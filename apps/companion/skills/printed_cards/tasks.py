@@ -15,10 +15,13 @@ PATIENCE = 12.0
 
 
 async def take_card(context: TaskContext) -> str | None:
-    """Look for a card, and hear its sentence as if it had been typed; a card counts once."""
+    """Look for a card, and hear its sentence as if it had been typed; a card counts once.
+
+    Whatever is said to it ends the search.
+    """
     network, slot = load_network(FOLDER / "cards.xml"), context.board.slot(QUESTION)
     slot.set(True, context.clock.now())  # so that it asks nothing else meanwhile
-    with context.queue("marker.seen") as queue:
+    with context.queue("marker.seen", "speech.heard") as queue:
         context.networks.start(network)
         try:
             await verbs.say(context, "Show me your card.")
@@ -30,6 +33,8 @@ async def take_card(context: TaskContext) -> str | None:
             slot.clear()
     if event is None:
         return "I see no card. Hold it still, in the light."
+    if event.name == "speech.heard":
+        return None
     if (sentence := CARDS.get(event.properties["marker"])) is None:
         return "I don't know that card."
     context.behavior(Listener).type_line(sentence)

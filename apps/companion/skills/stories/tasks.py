@@ -75,17 +75,23 @@ def _knock(entry: Table) -> Knock:
 STORIES, KNOCKS = read_tales()
 
 
-async def tell_story(context: TaskContext, hero: str = "") -> str:
-    """Tell the story about that hero, or the one of all that was not told for the longest time."""
+async def tell_story(context: TaskContext, hero: str = "") -> str | None:
+    """Tell the story about that hero, or the one of all that was not told for the longest time.
+
+    Whatever is said to it ends the story.
+    """
     heroes = [story.hero for story in STORIES]
     told = _next(context, "story", [hero] if hero in heroes else heroes)
     story = STORIES[heroes.index(told)]
     face = Lane(context)
     try:
-        for line in story.lines:
-            face.start(verbs.show, line.show, LONGEST)
-            await verbs.say(context, line.say)
-            await context.clock.sleep(PAUSE)
+        with context.queue("speech.heard") as heard:
+            for line in story.lines:
+                face.start(verbs.show, line.show, LONGEST)
+                await verbs.say(context, line.say)
+                await context.clock.sleep(PAUSE)
+                if heard:
+                    return None
     finally:
         face.stop()
     return "The end."
