@@ -46,7 +46,7 @@ HESITATIONS = frozenset(("um", "uh", "er", "hm", "hmm", "oh", "ah", "well", "oka
 NEGATING = frozenset(("no", "not", "don't", "without", "never", "except", "isn't"))
 """One of these among the words that say nothing else leaves open what is wanted."""
 NEAR = 4
-"""Words before an answer within which it does: "I don't eat a lot at night, a small one" is clear."""
+"""Within this many words before an answer: "I don't eat a lot at night, a small one" is clear."""
 LIMITING = frozenset(("but", "wait", "actually", "only", "or"))
 """One of these behind a yes leaves open whether it is one."""
 EDITING = (
