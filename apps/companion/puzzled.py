@@ -5,8 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import islice
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from hri.conversation import (
@@ -18,10 +17,10 @@ from hri.conversation import (
     Kind,
     Puzzle,
     act_of,
+    answers_shown,
     are_alike,
     as_said,
     deed_of,
-    different,
     echo_of,
     fields_of,
     introduced,
@@ -89,8 +88,6 @@ FELT: Mapping[Kind, str] = {
 """Stimuli."""
 OWN_WORDS = TELLING | GESTURES.keys()
 """Of these a request for other words would be no answer."""
-MOST_NAMED = 4
-"""Answers to a question that are all named; of more, two are."""
 MOST_OF_SLIP = 5
 """Words of a sentence that fails at one."""
 TALES = ("because", "commands", "said", "why", "why_stopped")
@@ -244,31 +241,7 @@ def _answers(companion: Companion, grammar: Grammar) -> list[str]:
     asked = companion.context.board.slot(ASKED).value
     if grammar.marked("answer") or asked == CONFIRMED:
         return ["yes", "no"]
-    others = grammar.marked("interrupts")
-    # What may be said around an answer belongs to other grammars.
-    own = [rule for rule in grammar.public_rules if rule not in others and "." not in rule]
-    shown = [text for rule in own for text in grammar.rules[rule].examples]
-    shown += [text for rule in own for text in _answers_for(grammar, rule, asked)]
-    texts = [as_said(text) for text in _of_different_meaning(grammar, shown, asked)]
-    return texts if len(texts) <= MOST_NAMED else texts[:2]
-
-
-def _answers_for(grammar: Grammar, rule: str, tag: str | None) -> Iterator[str]:
-    """Sentences of a rule, or of what gives a tag its value there."""
-    values = values_of(grammar, rule, tag) if tag else grammar
-    for key in values.public_rules if tag else [rule]:
-        yield from islice(different(values, key), MOST_NAMED + 1)
-
-
-def _of_different_meaning(grammar: Grammar, texts: Iterable[str], tag: str | None) -> list[str]:
-    """The first text of each value of a tag; any tag where none is given."""
-    found: dict[object, str] = {}
-    for text in texts:
-        parsed = parse(grammar, text)
-        if parsed is not None and (not tag or tag in parsed.tags):
-            value = parsed.tags[tag] if tag else tuple(sorted(parsed.tags.items()))
-            found.setdefault(value if value != () else text, text)
-    return list(found.values())
+    return [as_said(text) for text in answers_shown(grammar, asked)]
 
 
 def _is_for_it(companion: Companion, heard: Mapping[str, Any]) -> bool:

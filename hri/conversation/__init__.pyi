@@ -6,7 +6,7 @@ from .alarms import (
     AlarmKind as AlarmKind,
     TooManyAlarms as TooManyAlarms,
     completed as completed,
-    is_day as is_day,
+    lacks_time as lacks_time,
     length_words as length_words,
 )
 from .authored_event import read_event as read_event
@@ -26,8 +26,8 @@ from .day import (
 )
 from .dialog_act import act_of as act_of
 from .examples import (
+    answers_shown as answers_shown,
     are_alike as are_alike,
-    different as different,
     nearest_sentence as nearest_sentence,
     sayings as sayings,
 )

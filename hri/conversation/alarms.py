@@ -28,13 +28,15 @@ JUMP = 1.0
 MINUTE, HOUR, DAY = 60, 3600, 86400
 MORNING = "09:00"
 """When a day is meant without a time."""
+ABOUT = "~"
+"""Behind a time that stands for a part of the day: "tomorrow morning" is +1 09:00~."""
 HALVES = {"am": 0, "pm": 12}
 """The hour at which each half of a day begins."""
 EARLIEST = 7
 """The hour of another day from which on the one before noon is meant: seven, but not six."""
 _WHEN = re.compile(
     rf"(?P<day>[+-][-\d]+|\d{{4}}-\d\d-\d\d|(?:(?:next|last) )?(?:{'|'.join(WEEKDAYS)}))?"
-    r"(?:(?:^| )(?P<clock>\d\d:\d\d)(?P<half>\?|am|pm|))?"
+    r"(?:(?:^| )(?P<clock>\d\d:\d\d)(?P<half>\?|~|am|pm|))?"
 )
 """What `meant` takes, but a length of time."""
 
@@ -194,27 +196,29 @@ def completed(value: Any, before: Any) -> Any:
     there; anything else as it is.
 
     "Nine" behind "seven in the morning" is 09:00, "eight" behind "tomorrow evening" +1 20:00, and
-    "Friday" behind "tomorrow at seven" is at seven.
+    "Friday" behind "tomorrow at seven" is at seven; so is "tomorrow morning" behind "at seven".
     """
     now, then = _WHEN.fullmatch(str(value)), _WHEN.fullmatch(str(before))
     if now is None or then is None or not (value and before):
         return value
-    clock, half = (now if now["clock"] else then).group("clock", "half")
-    if now["clock"] and half == "?" and then["clock"]:
-        half = _half(then["clock"], then["half"]) if int(clock[:2]) <= 12 else half
+    is_kept = then["clock"] and (not now["clock"] or now["half"] == ABOUT != then["half"])
+    first, second = (then, now) if is_kept else (now, then)
+    clock, half = first.group("clock", "half")
+    if half == "?" and second["clock"]:
+        half = _half(second["clock"], second["half"]) if int(clock[:2]) <= 12 else half
     day = now["day"] or then["day"]
     return " ".join(filter(None, (day, f"{clock}{half}" if clock else "")))
 
 
-def is_day(when: str) -> bool:
-    """Whether a tag of `grammars/when.jsgf` is a day without a time."""
+def lacks_time(when: str) -> bool:
+    """Whether a tag of `grammars/when.jsgf` is a day, or a part of one, without a time."""
     found = _WHEN.fullmatch(when)
-    return found is not None and bool(found["day"]) and not found["clock"]
+    return found is not None and bool(found["day"]) and found["half"] in (None, ABOUT)
 
 
 def _half(clock: str, half: str) -> str:
     """The half of the day of a time, "?" for either."""
-    return half or ("am" if int(clock[:2]) < 12 else "pm")
+    return half if half and half != ABOUT else "am" if int(clock[:2]) < 12 else "pm"
 
 
 # --- in words ---

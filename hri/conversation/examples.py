@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import islice
 
 from hri.conversation.gist import Gist, stem
-from hri.speech.grammar import expansion
+from hri.speech.grammar import Grammar, expansion, parse
 from hri.speech.grammar.rules import Rules
+from hri.speech.grammar.slot_values import values_of
 from hri.speech.grammar.words import ANY, normalize
 
 MOST_COMPARED = 400
@@ -17,6 +18,8 @@ MOST_SHOWN = 3
 """Sentences of a rule that are shown."""
 PERSONAL = ("i", "i'm", "i've", "i'd", "i'll", "my", "we", "you are", "you're", "your", "he", "she")
 """What people say of themselves and of the robot begins so: no one is told to say such a thing."""
+MOST_NAMED = 4
+"""Answers to a question that are all shown; of more, two are."""
 LEAST_SHARED = 2
 """Words that a text has in common with a sentence that is like it."""
 ALIKE = 0.6
@@ -72,6 +75,38 @@ def _sayings(grammar: Rules) -> dict[str, list[str]]:
         if shown := [text for text in texts if text and not is_personal(text)][:MOST_SHOWN]:
             found[rule] = shown
     return found
+
+
+def answers_shown(grammar: Grammar, tag: str | None = None) -> list[str]:
+    """Sentences of its files that mean different things: all where they are few, else two.
+
+    With a tag, those that give it different values.
+    """
+    others = grammar.marked("interrupts")
+    # What may be said around an answer belongs to other grammars.
+    own = [rule for rule in grammar.public_rules if rule not in others and "." not in rule]
+    shown = [text for rule in own for text in grammar.rules[rule].examples]
+    shown += [text for rule in own for text in _answers_for(grammar, rule, tag)]
+    texts = _of_different_meaning(grammar, shown, tag)
+    return texts if len(texts) <= MOST_NAMED else texts[:2]
+
+
+def _answers_for(grammar: Grammar, rule: str, tag: str | None) -> Iterator[str]:
+    """Sentences of a rule, or of what gives a tag its value there."""
+    values = values_of(grammar, rule, tag) if tag else grammar
+    for key in values.public_rules if tag else [rule]:
+        yield from islice(different(values, key), MOST_NAMED + 1)
+
+
+def _of_different_meaning(grammar: Grammar, texts: Iterable[str], tag: str | None) -> list[str]:
+    """The first text of each value of a tag; any tag where none is given."""
+    found: dict[object, str] = {}
+    for text in texts:
+        parsed = parse(grammar, text)
+        if parsed is not None and (not tag or tag in parsed.tags):
+            value = parsed.tags[tag] if tag else tuple(sorted(parsed.tags.items()))
+            found.setdefault(value if value != () else text, text)
+    return list(found.values())
 
 
 def are_alike(text: str, sentence: str) -> bool:

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
+from hri.conversation.alarms import completed
+from hri.conversation.examples import answers_shown
 from hri.conversation.form_grammar import (
     AGREED,
     LESS,
@@ -17,6 +19,7 @@ from hri.conversation.form_grammar import (
     form_grammar,
 )
 from hri.conversation.forms import NOTHING, Form, Slot
+from hri.conversation.puzzlement import as_said
 from hri.conversation.self_repair import Change, change_of, is_among_others, is_clear, own_words
 from hri.core.signals import Utterance
 from hri.robot.verbs import Ending, ask_in_force, say
@@ -82,7 +85,7 @@ async def _asked(
     asked.set(CONFIRMED if slot is None else slot.name, context.clock.now())
     try:
         if slot is not None:
-            return await _answer(context, form, slot.ask)
+            return await _answer(context, form, slot.question(values), slot)
         return await _answer(context, form, form.filled_in(form.confirm, values), is_yes_or_no=True)
     finally:
         asked.clear()
@@ -169,20 +172,41 @@ def _left(listed: tuple[Any, ...], items: tuple[Any, ...], may_be_other: bool) -
 
 
 def _with(values: Mapping[str, Any], told: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in {**values, **told}.items() if value is not None}
+    """Values with others in their places; a day keeps the time that was said before it."""
+    now = {name: completed(value, values.get(name)) for name, value in told.items()}
+    return {name: value for name, value in {**values, **now}.items() if value is not None}
 
 
 async def _answer(
-    context: TaskContext, form: Form, question: str, is_yes_or_no: bool = False
+    context: TaskContext,
+    form: Form,
+    question: str,
+    slot: Slot | None = None,
+    is_yes_or_no: bool = False,
 ) -> bool | Utterance | Ending:
     """The answer to a question of a form; who says something else is asked again."""
-    questions = {slot.name: slot.ask for slot in form.slots}
-    ask = partial(ask_in_force, context, question, questions=questions, is_yes_or_no=is_yes_or_no)
+    ask = partial(
+        ask_in_force,
+        context,
+        question,
+        questions={slot.name: slot.ask for slot in form.slots},
+        is_yes_or_no=is_yes_or_no,
+        hint=partial(_hint, _grammar(context), slot),
+    )
     answer = await ask()
     if answer is Ending.OTHER and not _is_interrupted(context):
         await _after_what_is_said(context)
         answer = await ask()
     return answer
+
+
+def _hint(grammar: Grammar, slot: Slot | None) -> str:
+    """What may be answered to the question for a slot; empty for other questions."""
+    shown = [] if slot is None else answers_shown(grammar, slot.name)
+    if not shown:
+        return ""
+    *first, last = [f'"{as_said(text)}"' for text in shown]
+    return f"You can say {', '.join(first)} or {last}." if first else f"You can say {last}."
 
 
 async def _after_what_is_said(context: TaskContext) -> None:

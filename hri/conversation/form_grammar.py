@@ -17,6 +17,7 @@ from hri.speech.answering import (
     CANCEL,
     CANCEL_AMONG,
     CORRECTING,
+    UNSURE,
     answering,
 )
 from hri.speech.grammar import Grammar, Parse, Rule, load_grammar, parse
@@ -56,6 +57,8 @@ SEVERAL = "form.several"
 """The rule of answers among other words, which are typed: "a small one dear with olives please"."""
 FILLS = "fills"
 """The mark of rules that answer by their tags."""
+GIVES_WAY = "gives_way"
+"""The mark of rules that count only where none does that answers by its tags."""
 NAMES = "form.names"
 """The part that names a slot."""
 NAMED = "form.named"
@@ -112,7 +115,7 @@ def form_grammar(form: Form, grammar: Grammar) -> Grammar:
     before = {MORE: words.items(MORE, ADDING, listed), LESS: words.items(LESS, TAKING_AWAY, listed)}
     # "Never mind" is also a no, to a question of yes or no alone, and "nothing" empties no slot
     # by its name.
-    first = {key: asked.rules[key] for key in (CANCEL, CANCEL_AMONG, NO)}
+    first = {key: asked.rules[key] for key in (CANCEL, CANCEL_AMONG, UNSURE, NO)}
     return replace(asked, rules={**before, **own, **first, **made, **asked.rules, **made})
 
 
@@ -207,7 +210,8 @@ class _Words:
     def answer(self, key: str) -> Rule:
         """A yes or a no, and what is typed behind it."""
         row = (self._to(key), Anything(self._span, 1, MOST_BEHIND))
-        return self._typed(AGREED if key == YES else REFUSED, Row(row, self._span))
+        rule = self._typed(AGREED if key == YES else REFUSED, Row(row, self._span))
+        return _marked(rule, GIVES_WAY)
 
     def several(self, answers: Iterable[str]) -> Rule:
         """Answers with other words before, between and behind them."""

@@ -27,6 +27,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from hri.conversation.alarms import lacks_time
 from hri.conversation.authored_event import read_event
 from hri.conversation.spoken_text import check_text
 from hri.core import paths
@@ -53,6 +54,15 @@ class Slot:
     ask: str
     none: str | None = None
     """What stands for it where it is left out; None for one that is needed."""
+    ask_time: str = ""
+    """Asked where a tag `when` of `grammars/when.jsgf` is a day, or a part of one; empty to take
+    it as it is."""
+
+    def question(self, values: Mapping[str, Any]) -> str:
+        """What is to be asked for it; empty where nothing is."""
+        if self.name not in values:
+            return self.ask
+        return self.ask_time if lacks_time(str(values[self.name])) else ""
 
 
 @dataclass(frozen=True)
@@ -84,8 +94,8 @@ class Form:
         return {slot.name: tags[slot.name] for slot in self.slots if slot.name in tags}
 
     def next_slot(self, values: Mapping[str, Any]) -> Slot | None:
-        """The first slot that is empty."""
-        return next((slot for slot in self.slots if slot.name not in values), None)
+        """The first slot of which something is to be asked."""
+        return next((slot for slot in self.slots if slot.question(values)), None)
 
     def filled_in(self, text: str, values: Mapping[str, Any]) -> str:
         """A text of the form with the slots in it, as they are said; it begins with a capital."""
@@ -152,6 +162,6 @@ def _slot(entry: Table, tags: Collection[str]) -> Slot:
         what = f'the grammar of the form gives no tag "{name}"'
         raise entry.error("name", what, did_you_mean(name, tags))
     none = entry.string("none") if "none" in entry else None
-    slot = Slot(name, entry.string("ask"), none)
+    slot = Slot(name, entry.string("ask"), none, entry.string("ask_time", ""))
     entry.finish()
     return slot

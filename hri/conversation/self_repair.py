@@ -24,6 +24,8 @@ LONGEST_ANSWER = 10
 """Words of an answer that stands among others."""
 LONGEST_REPAIR = 4
 """Words that stand for a part of the answer before them."""
+MOST_WITHIN = 4
+"""Editing terms that are looked at within answers: more are play."""
 LEADING = frozenset(
     (
         "with",
@@ -47,6 +49,15 @@ NEGATING = frozenset(("no", "not", "don't", "without", "never", "except", "isn't
 """One of these among the words that say nothing else leaves open what is wanted."""
 NEAR = 4
 """Within this many words before an answer: "I don't eat a lot at night, a small one" is clear."""
+TURNING = frozenset(("then", "so", "but"))
+"""Behind one of these it does no more: "you don't have that, then bacon"."""
+CARRYING = frozenset(
+    (
+        *("i", "you", "we", "it", "me", "us", "have", "want", "need", "like", "think", "should"),
+        *("would", "do", "to", "please", "really", "even", "any", "the", "that", "sure", "about"),
+    )
+)
+"""Through these it reaches what is asked for: "i don't want you to add bacon"."""
 LIMITING = frozenset(("but", "wait", "actually", "only", "or"))
 """One of these behind a yes leaves open whether it is one."""
 EDITING = (
@@ -196,14 +207,14 @@ def change_of(own: Grammar, form: Form, text: str, values: Mapping[str, Any]) ->
     `own` are the answers alone, of `own_words`; `values` are the slots so far. "Wednesday not
     monday" is Wednesday, and "small but i don't know" is not clear.
     """
-    words = _HARMLESS.sub(" ", text).split()
+    words = _respoken(own, _HARMLESS.sub(" ", text).split())
     draft, start, use = _Draft(values), 0, Use.SAID
     last, rule, names = list[str](), "", set[str]()
     for begin, end, found in _answers(own, words):
         before, behind, tags = words[start:begin], words[end:], form.taken(found.tags)
         if tags.keys() != names or not _goes_on(before, use):
             use, rest = _use(before, is_first=not last)
-            if not NEGATING.isdisjoint(rest[-NEAR:]):
+            if _is_negated(before, rest, use):
                 return None
         if use in (Use.REPAIRED, Use.DENIED) and found.rule != rule:
             tags = _repaired(own, form, last, words[begin:end]) or tags
@@ -217,6 +228,46 @@ def change_of(own: Grammar, form: Form, text: str, values: Mapping[str, Any]) ->
     elif not NEGATING.isdisjoint(tail):
         return None
     return draft.change
+
+
+def _respoken(own: Grammar, words: list[str]) -> list[str]:
+    """Words without those that were taken back within an answer: "in thirty no forty minutes".
+
+    What replaces them goes on as they would have, or says nothing without the words before them:
+    "in an hour no two hours".
+    """
+    for begin, end in _terms(words)[:MOST_WITHIN]:
+        for length in range(1, min(LONGEST_REPAIR, begin, len(words) - end) + 1):
+            first, repair = begin - length, words[end : end + length]
+            taken_back = [*words[:begin], *words[end + length :]]
+            meant = [*words[:first], *words[end:]]
+            goes_on = _is_spanned(own, taken_back, begin, begin + 1)
+            is_part = _is_spanned(own, words[:begin], first, begin) and not _answer(own, repair)
+            if (goes_on or is_part) and _is_spanned(own, meant, first, begin + goes_on):
+                return _respoken(own, meant)
+    return words
+
+
+def _terms(words: Sequence[str]) -> list[tuple[int, int]]:
+    """Where editing terms begin and end, with others right behind them."""
+    text = " ".join(words)
+    found: list[tuple[int, int]] = []
+    for term in _EDITING.finditer(text):
+        begin, end = (len(text[:place].split()) for place in term.span())
+        if found and found[-1][1] == begin:
+            begin = found.pop()[0]
+        found.append((begin, end))
+    return found
+
+
+def _is_spanned(own: Grammar, words: Sequence[str], first: int, last: int) -> bool:
+    """Whether an answer begins before one place among words, and ends at another or behind it."""
+    spans = (
+        words[begin:end]
+        for begin in range(max(first - LONGEST_REPAIR, 0), first)
+        for end in range(last, min(last + LONGEST_REPAIR, len(words)) + 1)
+    )
+    return any(_answer(own, span) is not None for span in spans)
 
 
 def _answers(own: Grammar, words: Sequence[str]) -> Iterator[tuple[int, int, Parse]]:
@@ -261,6 +312,16 @@ def _use(before: Sequence[str], is_first: bool) -> tuple[Use, list[str]]:
         is_added = is_first and HESITATIONS.issuperset(rest[:-1])
         return Use.ADDED if is_added else Use.SAID, rest
     return Use.REPAIRED if len(rest) < len(core) else Use.SAID, rest
+
+
+def _is_negated(before: Sequence[str], rest: Sequence[str], use: Use) -> bool:
+    """Whether a "not" reaches an answer; `rest` are those words before it that say nothing else."""
+    near = rest[-NEAR:]
+    places = [place for place, word in enumerate(near) if word in NEGATING]
+    turns = [place for place, word in enumerate(before) if word in TURNING]
+    if not places or (turns and NEGATING.isdisjoint(before[turns[-1] :])):
+        return False
+    return use is not Use.ADDED or CARRYING.issuperset(near[places[-1] + 1 :])
 
 
 def _use_by_end(behind: str) -> Use | None:

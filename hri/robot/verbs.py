@@ -18,7 +18,7 @@ from hri.emotion.appraisal import OccEvent
 from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Brush, Face, FaceRenderer
 from hri.face.model import FaceModel, load_face
-from hri.speech.answering import AGAIN, REFUSING, answering
+from hri.speech.answering import AGAIN, REFUSING, UNSURE, answering
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import Grammar, parse
 from hri.speech.grammar.slot_values import values_of
@@ -200,14 +200,16 @@ async def ask_in_force(
     retries: int = 1,
     questions: Mapping[str, str] = MappingProxyType({}),
     is_yes_or_no: bool = False,
+    hint: Callable[[], str] | None = None,
 ) -> bool | Utterance | Ending:
     """Ask a question that the grammar in force answers; the answer, or why there is none.
 
     A nod, a shake or a thumb answers one that `is_yes_or_no`. `questions` are what is asked, by
-    tag, where only that tag was unclear. Otherwise as `ask`.
+    tag, where only that tag was unclear; who does not know is asked again, after what `hint` gives
+    in a worker. Otherwise as `ask`.
     """
     grammar = context.behavior(Listener).loaded_grammar
-    answer_of = _HeardAnswer(grammar, question, questions=questions)
+    answer_of = _HeardAnswer(grammar, question, questions=questions, hint=hint)
     if not is_yes_or_no:
         return await _ask(context, question, timeout, retries, answer_of)
 
@@ -272,6 +274,8 @@ class _Again:
     """What an event answers then."""
     retries: int = 1
     """How many of them it takes."""
+    hint: Callable[[], str] | None = None
+    """Gives what is said before the question."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,6 +304,8 @@ async def _ask(
         event, answer = found
         if isinstance(answer, _Again):
             asked, answer_of, left = answer.question, answer.answer_of, left - answer.retries
+            if answer.hint is not None and (hint := await context.blocking(answer.hint)):
+                asked = f"{hint} {asked}"
             continue
         if isinstance(answer, _Refusal):
             context.events.raise_event("question.refused", text=question)
@@ -393,8 +399,9 @@ class _HeardAnswer:
         sure: Mapping[str, Any] = MappingProxyType({}),
         doubted: Mapping[str, Any] = MappingProxyType({}),
         questions: Mapping[str, str] = MappingProxyType({}),
+        hint: Callable[[], str] | None = None,
     ) -> None:
-        self._grammar, self._asked = grammar, asked
+        self._grammar, self._asked, self._hint = grammar, asked, hint
         self._sure, self._doubted, self._questions = sure, doubted, questions
 
     def __call__(
@@ -406,6 +413,8 @@ class _HeardAnswer:
         heard = listener.last_utterance
         if event.name != "speech.heard" or heard is None:
             return None
+        if heard.rule == UNSURE and self._hint is not None:
+            return _Again(self._asked, self, retries=0, hint=self._hint)
         if heard.rule in REFUSING:
             return _Refusal()
         if heard.rule == AGAIN:

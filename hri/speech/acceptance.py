@@ -183,7 +183,7 @@ def _as_specific(
     """Beside a phrase among other words, others that mean something else: all were said.
 
     Where all free words are those of a free slot of a command, it is not small talk, nor where it
-    answers a form.
+    answers a form: "they'd rather have bacon" is not "they would", either.
     """
     if found is None or not found.free:
         return
@@ -193,6 +193,8 @@ def _as_specific(
     is_answer = turn.is_question_open and found.rule in answers
     for other in meanings(grammar, found.as_typed, answers if is_answer else rules):
         if is_filled and grammar.rules[other.rule].topics:
+            continue
+        if found.rule in fills and "gives_way" in grammar.rules[other.rule].marks:
             continue
         if {found.rule, other.rule} <= fills and are_same(found.tags, other.tags):
             continue  # "In Tuesday" is one answer, by whichever rule.

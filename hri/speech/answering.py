@@ -27,7 +27,8 @@ from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 SHARED = "asking.jsgf"
 """The grammar with what every question lets people say, which is English."""
 CANCEL, CANCEL_AMONG, AGAIN = "asking.cancel", "asking.cancel_among", "asking.again"
-REFUSING = (CANCEL, CANCEL_AMONG, "asking.none")
+UNSURE = "asking.unsure"
+REFUSING = (CANCEL, CANCEL_AMONG, UNSURE, "asking.none")
 """Rules of what ends the question without an answer."""
 BEFORE, AFTER = "asking.before", "asking.after"
 """Rules of what may be said around an answer."""

@@ -11,6 +11,7 @@ from hri.conversation.alarms import (
     Alarms,
     Instant,
     TooManyAlarms,
+    lacks_time,
     length_words,
     meant,
     when_words,
@@ -101,6 +102,14 @@ def test_there_is_an_end_to_them() -> None:
 )
 def test_what_people_mean_by_a_time(text: str, words: str) -> None:
     assert when_words(meant(text, FRIDAY)[0], FRIDAY) == words
+
+
+def test_a_part_of_a_day_lacks_its_time() -> None:
+    assert meant("+1 09:00~", FRIDAY)[0].hour == 9
+    assert lacks_time("+1 09:00~")
+    assert lacks_time("friday")
+    assert not lacks_time("+1 09:00")
+    assert not lacks_time("07:00?")
 
 
 def test_an_hour_of_an_alarm_is_early_in_the_morning() -> None:

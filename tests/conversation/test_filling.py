@@ -75,6 +75,13 @@ def test_what_is_unclear_twice_and_the_same_counts(filled):
     assert asked[2] == "With which toppings?"
 
 
+def test_who_does_not_know_hears_what_may_be_said(filled):
+    values, asked = filled(["i don't know", "small", "olives", "um i'm not sure", "yes"], {})
+    assert values == {"size": "small", "toppings": ("olives",)}
+    assert asked[1] == 'You can say "small" or "large". Which size?'
+    assert asked[-2] == asked[-1]
+
+
 @pytest.mark.parametrize("answers", [["stop"], ["never mind"], ["", ""], ["no"]])
 def test_a_form_is_given_up_by_word_and_by_silence(filled, answers):
     assert filled(answers, {})[0] is None

@@ -61,6 +61,9 @@ def told(tmp_path_factory):
         ("i don't know if small", None),
         ("small or large", None),
         ("large or no wait small", {"size": "small"}),
+        ("oh you don't have that then bacon", {"toppings": ("bacon",)}),
+        ("i'm not that hungry so small", {"size": "small"}),
+        ("they'd rather have bacon", {"toppings": ("bacon",)}),
         ("small no", None),
         ("what can i have", {}),
     ],
@@ -95,10 +98,15 @@ def test_a_repair_keeps_what_it_does_not_name(told, text, slots):
         ("large please and no olives but bacon", ("bacon",)),
         ("bacon instead of olives", ("bacon",)),
         ("i don't want olives", ""),
+        ("she's not eating with us put the bacon back on", BOTH),
     ],
 )
 def test_a_list_is_changed_among_other_words(told, text, toppings):
     assert told(text, {"size": "small", "toppings": ("olives",)})["toppings"] == toppings
+
+
+def test_what_is_not_to_be_added_is_not(told):
+    assert told("i don't want you to add bacon", {"size": "small", "toppings": BOTH[:1]}) is None
 
 
 def test_what_is_not_wanted_any_more_is_asked_for_again(told):
@@ -115,6 +123,7 @@ def test_what_is_not_wanted_any_more_is_asked_for_again(told):
         ("two eggs so six minutes", 6),
         ("ten hours no twelve", 720),
         ("ten minutes no an hour", 60),
+        ("thirty no forty minutes", 40),
         ("five", 5),
     ],
 )
@@ -137,6 +146,9 @@ def test_a_short_answer_is_heard_behind_other_words():
         ("at seven tomorrow no friday", "friday 07:00?"),
         ("seven in the morning no in ten minutes", "in 600"),
         ("half past six no seven", "07:00?"),
+        ("in thirty no forty minutes", "in 2400"),
+        ("in an hour no wait two hours", "in 7200"),
+        ("seven in the morning no better half past six", "06:30am"),
     ],
 )
 def test_a_time_keeps_its_half_of_the_day_and_its_day(told, text, when):
@@ -150,6 +162,11 @@ def test_a_time_keeps_its_half_of_the_day_and_its_day(told, text, when):
         ("12:00?", "19:00", "12:00pm"),
         ("13:00?", "07:00", "13:00?"),
         ("friday", "+1 07:00?", "friday 07:00?"),
+        ("06:30?", "+1 09:00~", "+1 06:30am"),
+        ("07:00?", "+0 19:00~", "+0 07:00pm"),
+        ("+1 09:00~", "07:00?", "+1 07:00am"),
+        ("+1 19:00~", "+1 09:00~", "+1 19:00~"),
+        ("friday", "+1 09:00~", "friday 09:00~"),
         ("09:00?", "+1", "+1 09:00?"),
         ("09:00?", None, "09:00?"),
         ("Monday", "Tuesday", "Monday"),
@@ -166,7 +183,7 @@ CLOCKS = st.times().map(lambda time: f"{time:%H:%M}")
 DAYS = st.sampled_from(["", "+1 ", "friday ", "next monday "])
 
 
-@given(DAYS, CLOCKS, DAYS, CLOCKS, st.sampled_from(["", "?", "am", "pm"]))
+@given(DAYS, CLOCKS, DAYS, CLOCKS, st.sampled_from(["", "?", "~", "am", "pm"]))
 def test_a_completed_time_is_one(day, clock, day_before, clock_before, half):
     found = completed(f"{day}{clock}?", f"{day_before}{clock_before}{half}")
     meant(found, datetime(2026, 5, 1, 10, 0))

@@ -23,6 +23,7 @@ MARKS = MappingProxyType(
         "careful": "it moves the robot, so it must be heard without doubt",
         "answer": "it is only heard while a question is open",
         "fills": "it answers by its tags: of two such rules with the same tags either may count",
+        "gives_way": "among other words it counts only where no rule does that answers by its tags",
         "interrupts": "it is heard while the robot speaks and under other grammars, too",
         "anywhere": "it counts among other words, too, when they are said to the robot",
         "after": "it is heard only for a while after one of the commands that it names",

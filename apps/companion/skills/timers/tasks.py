@@ -14,20 +14,15 @@ from hri.conversation import (
     AlarmKind,
     TooManyAlarms,
     completed,
-    is_day,
     length_words,
     ring,
 )
-from hri.core import Utterance
-from hri.robot import verbs
 from hri.task import TaskContext
 
 EARLIEST_ALARM = 4
 """The hour from which on "tomorrow at five" is in the morning, for an alarm."""
 SNOOZE = 540.0
 """Seconds."""
-PATIENCE = 10.0
-"""Seconds for an answer."""
 UNSAVED = " But I can't save it, so please don't switch me off."
 NOT_YET = "I can only do that for a time to come, within ten years."
 FULL = "I can't keep any more timers and alarms. Cancel one first."
@@ -72,12 +67,7 @@ async def set_timer(context: TaskContext, duration: float, about: str = "") -> s
 
 
 async def set_alarm(context: TaskContext, when: str) -> str:
-    """Set an alarm, at a time or after one; of a day its time is asked for."""
-    if is_day(when):
-        answer = await verbs.ask(context, "At what time?", PATIENCE, "wake_when.jsgf", retries=1)
-        if not isinstance(answer, Utterance):
-            return ""
-        when = completed(answer.tags["when"], when)
+    """Set an alarm, at a time or after one."""
     keeper = AlarmKeeper.of(context)
     try:
         alarm = keeper.promise(AlarmKind.ALARM, when, earliest=EARLIEST_ALARM)
