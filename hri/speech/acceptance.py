@@ -187,7 +187,7 @@ def _as_specific(
     """
     if found is None or not found.free:
         return
-    answers, fills = grammar.marked("answer"), grammar.marked("fills")
+    answers, fills, typed = map(grammar.marked, ("answer", "fills", "typed"))
     is_filled = bool(found.slots) and not found.around and not grammar.rules[found.rule].topics
     is_filled |= found.rule in fills
     is_answer = turn.is_question_open and found.rule in answers
@@ -196,8 +196,11 @@ def _as_specific(
             continue
         if found.rule in fills and "gives_way" in grammar.rules[other.rule].marks:
             continue
-        if {found.rule, other.rule} <= fills and are_same(found.tags, other.tags):
-            continue  # "In Tuesday" is one answer, by whichever rule.
+        both = {found.rule, other.rule}
+        # What several typed words mean is for the form to say; "in Tuesday" is one answer, by
+        # whichever rule.
+        if both <= fills and (both & typed or are_same(found.tags, other.tags)):
+            continue
         if not resolved(grammar, other, turn.last).means_the_same(found):
             yield Alternative(_command(grammar, other), 1.0)
 
