@@ -19,7 +19,7 @@ log = logging.getLogger("hri.network")
 
 DEFAULT_INTERVAL = 0.10
 MOST_BEHAVIORS = 2000
-_SLOT = re.compile(r"\w+([.-]\w+)*")
+_SLOT = re.compile(r"([a-z][a-z0-9_-]*/)?\w+([.-]\w+)*")
 
 
 @dataclass(frozen=True)

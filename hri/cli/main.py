@@ -46,6 +46,7 @@ COMMANDS = {
     "object": ("hri.cli.object", "teach objects and recognize them in pictures"),
     "marker": ("hri.cli.marker", "print cards with markers and find them in pictures"),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
+    "fleet": ("hri.cli.fleet", "list the robots that know each other, and ask them to do things"),
     "token": ("hri.cli.token", "print the token with which other programs may move the robot"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),
     "soak": ("hri.cli.soak", "run a large network, or the companion, for simulated hours"),
@@ -53,8 +54,8 @@ COMMANDS = {
 """Each command is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 
 POSIX_ONLY = frozenset((
-    "bench", "companion", "devices", "doctor", "drive", "forget", "memory", "run", "skill", "soak",
-    "studio", "token",
+    "bench", "companion", "devices", "doctor", "drive", "fleet", "forget", "memory", "run", "skill",
+    "soak", "studio", "token",
 ))  # fmt: skip
 """Commands that Windows cannot run."""
 

@@ -17,7 +17,7 @@ Listener = Callable[[Event], object]
 # fmt: off
 OWN_SUBJECTS = frozenset((
     "alarm", "battery", "behavior", "bumper", "button", "camera", "cliff", "drive",
-    "emotion", "emotions", "face", "gesture", "grammar", "hand", "head", "idle", "marker",
+    "emotion", "emotions", "face", "fleet", "gesture", "grammar", "hand", "head", "idle", "marker",
     "memory", "microphone", "motion", "network", "object", "odometry", "person", "question",
     "recording", "replies", "speech", "stimulus", "studio", "target", "task", "vision",
     "visitor", "window",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable, Iterator
 from typing import Any, Generic, TypeVar
 
 T = TypeVar("T")
@@ -49,7 +50,17 @@ class Board:
 
     def __init__(self) -> None:
         self._slots: dict[str, Latest[Any]] = {}
+        self.remote: Callable[[str], Latest[Any]] | None = None
+        """Makes the slots of other robots, which have a slash: `anna/battery`; None where none can
+        be reached. To be set before the robot lives."""
 
     def slot(self, name: str) -> Latest[Any]:
         """The slot of that name, made on first use."""
-        return self._slots.setdefault(name, Latest())
+        if name not in self._slots:
+            make = self.remote if "/" in name else None
+            self._slots[name] = Latest() if make is None else make(name)
+        return self._slots[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of those that were used."""
+        return iter(tuple(self._slots))

@@ -17,6 +17,8 @@ KEYBOARD = "keyboard"
 """Someone who types, or presses keys of the window."""
 BRIDGE = "bridge"
 """Another program, over TCP."""
+FLEET = "fleet"
+"""Another robot, or a program that asks robots of a fleet."""
 OUTSIDE = "outside"
 """A value that a network passes on from outside of it: of another program, or of a joystick."""
 

@@ -9,8 +9,10 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hri.cli.door_options import add_door_options, doors_of
+from hri.cli.fleet_options import add_fleet_options, settings_of
 from hri.cli.run.browser import forget_page
 from hri.cli.run.changes import announce_changes
 from hri.cli.run.narrator import Narrator
@@ -41,6 +43,9 @@ from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Voice
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.task.context import TaskContext
+
+if TYPE_CHECKING:
+    from hri.net.zenoh.member import Member
 
 SENSES = ("microphone", "camera", "screen", "speaker")
 UNSEEN = "no screen: --studio shows the face in a browser, --record DIR keeps a film of the run"
@@ -90,6 +95,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--demo", action="store_true", help="a simulated person visits for two minutes")
     add("--studio", action="store_true", help="serve a page on which to see and steer the robot")
     add_studio_options(parser)
+    add("--fleet", metavar="NAME", help="join the fleet of robots under this name")
+    add_fleet_options(parser)
     add_door_options(parser)
 
 
@@ -162,6 +169,7 @@ def _run(
     robot.command, robot.sources = options.command, inputs(options)
     tasks = robot.app.load_tasks()
     studio = studio_of(robot, options) if options.studio else None
+    member = _member(robot, options)
     narrator = Narrator(robot)
     mention_kept(options, narrator)
     session = Session(robot, options, narrator, ending)
@@ -172,7 +180,8 @@ def _run(
         if studio is not None:
             studio.start()
             show_address(studio, options, narrator.tell)
-        robot.live_until_over(*tasks, *session.jobs(), *(studio.jobs() if studio else ()))
+        beside = (*(studio.jobs() if studio else ()), *([member.be_in_fleet] if member else ()))
+        robot.live_until_over(*tasks, *session.jobs(), *beside)
     finally:
         if studio is not None:
             studio.close()
@@ -182,6 +191,15 @@ def _run(
         robot.recording.plot()
     narrator.summary()
     return 0
+
+
+def _member(robot: Robot, options: argparse.Namespace) -> Member | None:
+    """The robot's end of the fleet, where it joins one."""
+    if not options.fleet:
+        return None
+    from hri.net.zenoh.member import Member
+
+    return Member(robot, settings_of(options, options.fleet))
 
 
 def open_senses(robot: Robot) -> set[str]:
@@ -203,6 +221,8 @@ def check_files(options: argparse.Namespace) -> None:
         with_it = "--demo" if options.demo else "--fast"
         what = f"--service {with_it}: a service meets real people in real time"
         raise HriError(f"{what} - leave out one of the two")
+    if options.fleet and options.fast:
+        raise HriError("--fleet --fast: a fleet lives in real time - leave out one of the two")
     load_app(options.app)
     if options.audio is not None:
         load_sound(options.audio)

@@ -1,0 +1,19 @@
+import pytest
+
+
+@pytest.fixture
+def living(tmp_path):
+    """Lets robots live, and ends them."""
+    from tests.net.zenoh.robots import NETWORK, Living
+
+    robots = []
+
+    def live(name, links=""):
+        path = tmp_path / f"{name}.xml"
+        path.write_text(NETWORK.format(name=name, links=links))
+        robots.append(Living(name, path))
+        return robots[-1]
+
+    yield live
+    for one in robots:
+        one.end()

@@ -1,0 +1,131 @@
+"""Robots of a fleet, for real, on the loopback network."""
+
+import threading
+from contextlib import contextmanager
+
+import pytest
+
+pytest.importorskip("zenoh", reason="the extra zenoh is not installed")
+
+from hri.core.errors import HriError
+from hri.core.signals import Utterance
+from hri.net.zenoh.fleet import ALL, fleet
+from hri.net.zenoh.remote_slot import SILENCE
+from hri.net.zenoh.session import FleetSettings
+from tests.net.conftest import WITHIN
+from tests.net.zenoh.robots import until
+
+READS = '<Link from="board.anna/level" to="double.input"/>'
+TAKES = '<Link from="board.wish" to="double.input"/>'
+
+
+@contextmanager
+def looking(names):
+    """The fleet as soon as these robots are in it."""
+    with fleet(FleetSettings()) as found:
+        assert until(lambda: set(names) <= set(found.names()))
+        yield found
+
+
+def test_a_slot_of_another_robot_is_read_and_empties_when_it_ends(living):
+    anna, berta = living("anna"), living("berta", READS)
+    level = berta.board.slot("anna/level")
+    assert until(lambda: level.value == 5.0)
+    assert level.datatype == "double"
+    assert level.age < WITHIN
+    anna.end()
+    assert until(lambda: level.value is None)
+
+
+def test_a_port_of_a_network_of_another_robot_is_read(living):
+    living("anna")
+    port = living("berta").board.slot("anna/anna.five.value")
+    assert until(lambda: port.value == 5.0)
+
+
+def test_a_value_is_written_to_another_robot_and_ends_with_its_writer(living):
+    anna, berta = living("anna", TAKES), living("berta")
+    berta.board.slot("anna/wish").set(3.0, 0.0)
+    wish = anna.board.slot("wish")
+    assert until(lambda: wish.value == 3.0)
+    assert anna.robot.clock.now() - wish.spoken <= SILENCE + 1.0
+    assert wish.writer == "berta"
+    berta.end()
+    assert until(lambda: wish.value is None)
+
+
+@pytest.mark.parametrize("value", ["text", Utterance("go", "move")])
+def test_a_value_of_another_type_does_not_come_in(living, value):
+    anna, berta = living("anna", TAKES), living("berta")
+    berta.board.slot("anna/wish").set(value, 0.0)
+    berta.board.slot("anna/other").set(1.0, 0.0)
+    assert until(lambda: anna.member.complaints >= 2)
+    assert anna.board.slot("wish").value is None
+    assert anna.board.slot("other").value is None
+
+
+def test_robots_are_listed_and_asked(living):
+    anna = living("anna")
+    events = []
+    anna.robot.events.subscribe("fleet.asked", events.append)
+    with looking(["anna"]) as found:
+        assert found.names() == ["anna"]
+        state = found.ask("anna", "state", {})
+        assert (state["app"], state["networks"]) == ("anna", ["anna"])
+        assert found.chosen([ALL]) == ["anna"]
+        found.ask("anna", "stop", {})
+        with pytest.raises(HriError, match='no request "dance"'):
+            found.ask("anna", "dance", {})
+        with pytest.raises(HriError, match=r'no robot "ana" .* "anna"'):
+            found.chosen(["ana"])
+    assert [one.properties["verb"] for one in events] == ["stop"]
+    assert events[0].origin == "fleet"
+
+
+def test_who_does_not_know_the_token_gets_and_does_nothing(living, monkeypatch):
+    anna = living("anna")
+    events = []
+    anna.robot.events.subscribe("fleet.asked", events.append)
+    with looking(["anna"]):
+        monkeypatch.setenv("HRI_TOKEN", "another-token-of-many-letters")
+        with fleet(FleetSettings()) as stranger, pytest.raises(HriError, match="HRI_TOKEN"):
+            stranger.ask("anna", "stop", {})
+    assert events == []
+
+
+def test_two_robots_cannot_have_one_name(living):
+    living("anna")
+    with looking(["anna"]):
+        second = living("anna")
+        assert until(lambda: second.failed)
+    assert "already" in str(second.failed[0])
+
+
+def test_what_happens_is_watched(living):
+    living("anna")
+    with looking(["anna"]) as found:
+        over = threading.Event()
+
+        def ask_until_over():
+            while not over.wait(0.05):
+                found.ask("anna", "release", {})
+
+        asking = threading.Thread(target=ask_until_over)
+        asking.start()
+        watched = found.events(["anna"], WITHIN)
+        event = next(one for one in watched if one["event"] == "fleet.asked")
+        over.set()
+        asking.join(WITHIN)
+    assert (event["robot"], event["properties"]["verb"]) == ("anna", "release")
+
+
+@pytest.mark.parametrize("name", ["Anna", "an na", "a/b", "*", "", "x" * 40])
+def test_a_name_is_plain(name):
+    if name:
+        with pytest.raises(HriError, match="cannot name a robot"):
+            FleetSettings(name)
+
+
+def test_other_machines_need_a_word():
+    with pytest.raises(HriError, match="--allow-remote"):
+        FleetSettings("anna", connect=("tcp/192.168.1.5:7447",))
