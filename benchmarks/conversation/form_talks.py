@@ -1,4 +1,4 @@
-"""Dialogues with forms, typed by people who have not seen the files:
+"""Dialogues with forms of people who have not seen the files, typed or spoken:
 `python -m benchmarks.conversation.form_talks --out forms.txt`.
 
 The orders and meetings are those of `docs/forms.md`, the timers, alarms and reminders the skills of
@@ -15,18 +15,23 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks.progress import progress
+from benchmarks.speech.voices import NEW, VOICES
+from hri.bench.speech.flite_voices import RATE
 from hri.bench.speech.listening import ONE_CORE
 from hri.bench.workers import variables, worker_pool
 from hri.conversation.alarm_keeper import AlarmKeeper
 from hri.core.clock import FakeClock
 from hri.core.paths import house
-from hri.core.signals import Event
+from hri.core.signals import Event, Samples
+from hri.hal.resource import Description
 from hri.robot import Robot
+from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
 from hri.task.context import TaskContext
 from hri.testing import live_for
@@ -34,6 +39,8 @@ from hri.testing.dialogues import TYPED, write_shown_files
 
 FOLDER = Path(__file__).parent / "forms"
 PAGE = "docs/forms.md"
+BLIND = (Description("screen", "Hri.BlankScreen"), Description("camera", "Hri.BlankCamera"))
+HELLO = "hello robot"
 CALM = 2.0
 """Seconds of silence after which a person says the next line."""
 PATIENCE = 12.0
@@ -68,26 +75,28 @@ class Played:
         return all(done.get(key) == value for key, value in expects.items() if key != "when")
 
 
-def play(dialogue: Mapping[str, Any]) -> Played:
-    """Play one to a fresh robot."""
+def play(dialogue: Mapping[str, Any], voice: str = "") -> Played:
+    """Play one to a fresh robot: typed, or spoken by a voice of `benchmarks.speech.voices`."""
     found = Played(dialogue["form"], dialogue["says"], dialogue["expects"], dialogue["why"])
     with TemporaryDirectory() as folder, variables(HRI_PATH=folder):
         write_shown_files(house() / PAGE, Path(folder, "skills"))
-        robot = Robot("companion", "simulated", clock=FakeClock(), devices=TYPED, seed=1)
-        events = live_for(
-            robot, LONGEST, *robot.app.load_tasks(), lambda one: _talk(one, found, robot)
-        )
+        devices = BLIND if voice else TYPED
+        robot = Robot("companion", "simulated", clock=FakeClock(), devices=devices, seed=1)
+        talk = partial(_talk, found=found, robot=robot, person=voice)
+        events = live_for(robot, LONGEST, *robot.app.load_tasks(), talk)
     found.hangs = robot.clock.now() >= LONGEST - 1.0
     found.done = _done(found, robot, events)
     return found
 
 
-async def _talk(context: TaskContext, found: Played, robot: Robot) -> None:
+async def _talk(context: TaskContext, found: Played, robot: Robot, person: str) -> None:
     def note(event: Event) -> None:
         found.transcript.append(f"robot: {event.properties['text']}")
 
     context.events.subscribe("speech.said", note)
     listener, voice = context.behavior(Listener), context.behavior(Voice)
+    if person:  # It cannot see who speaks, and whether that is to it.
+        await _say(context, VOICES[person](HELLO))
     for line in [*found.says, None]:
         await _until_calm(context, voice)
         if line is None:
@@ -95,10 +104,19 @@ async def _talk(context: TaskContext, found: Played, robot: Robot) -> None:
             await _until_it_speaks(context, found.transcript)
             continue
         found.transcript.append(f"you: {line}")
-        listener.type_line(line)
+        if person:
+            await _say(context, VOICES[person](line))
+        else:
+            listener.type_line(line)
         await context.clock.sleep(0.5)
     await _until_calm(context, voice)
     robot.finish()
+
+
+async def _say(context: TaskContext, samples: Samples) -> None:
+    world = context.resources.obtain("world", SimulatedWorld)
+    world.sound.add(samples, RATE, context.clock.now())
+    await context.clock.sleep(len(samples) / RATE)
 
 
 async def _until_it_speaks(context: TaskContext, transcript: Sequence[str]) -> None:
@@ -143,12 +161,18 @@ def main() -> None:
         prog="python -m benchmarks.conversation.form_talks", description=__doc__
     )
     parser.add_argument("--out", metavar="FILE", help="the transcript to write")
+    parser.add_argument("--only", nargs="*", default=[], help="sets of dialogues, such as nine")
+    parser.add_argument("--spoken", action="store_true", help="by two voices, in turns")
     options = parser.parse_args()
-    dialogues = [
-        one for file in sorted(FOLDER.glob("*.json")) for one in json.loads(file.read_text())
+    files = [
+        file
+        for file in sorted(FOLDER.glob("*.json"))
+        if file.stem in options.only or not options.only
     ]
+    dialogues = [one for file in files for one in json.loads(file.read_text())]
+    voices = [NEW[number % 2] if options.spoken else "" for number in range(len(dialogues))]
     with variables(**ONE_CORE), worker_pool(os.cpu_count() or 1) as pool:
-        played = list(progress(pool.map(play, dialogues), len(dialogues), "dialogues"))
+        played = list(progress(pool.map(play, dialogues, voices), len(dialogues), "dialogues"))
     right = sum(one.is_as_expected for one in played)
     hangs = sum(one.hangs for one in played)
     if options.out:
