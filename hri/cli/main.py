@@ -48,14 +48,15 @@ COMMANDS = {
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
     "fleet": ("hri.cli.fleet", "list the robots that know each other, and ask them to do things"),
     "token": ("hri.cli.token", "print the token with which other programs may move the robot"),
+    "mcp": ("hri.cli.mcp", "run an app and give it to an assistant (Model Context Protocol)"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),
     "soak": ("hri.cli.soak", "run a large network, or the companion, for simulated hours"),
 }
 """Each command is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 
 POSIX_ONLY = frozenset((
-    "bench", "companion", "devices", "doctor", "drive", "fleet", "forget", "memory", "run", "skill",
-    "soak", "studio", "token",
+    "bench", "companion", "devices", "doctor", "drive", "fleet", "forget", "mcp", "memory", "run",
+    "skill", "soak", "studio", "token",
 ))  # fmt: skip
 """Commands that Windows cannot run."""
 

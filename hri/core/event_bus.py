@@ -18,7 +18,7 @@ Listener = Callable[[Event], object]
 OWN_SUBJECTS = frozenset((
     "alarm", "battery", "behavior", "bumper", "button", "camera", "cliff", "drive",
     "emotion", "emotions", "face", "fleet", "gesture", "grammar", "hand", "head", "idle", "marker",
-    "memory", "microphone", "motion", "network", "object", "odometry", "person", "question",
+    "mcp", "memory", "microphone", "motion", "network", "object", "odometry", "person", "question",
     "recording", "replies", "speech", "stimulus", "studio", "target", "task", "vision",
     "visitor", "window",
 ))

@@ -19,6 +19,8 @@ BRIDGE = "bridge"
 """Another program, over TCP."""
 FLEET = "fleet"
 """Another robot, or a program that asks robots of a fleet."""
+MCP = "mcp"
+"""An assistant, by the Model Context Protocol."""
 OUTSIDE = "outside"
 """A value that a network passes on from outside of it: of another program, or of a joystick."""
 

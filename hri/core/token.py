@@ -38,9 +38,73 @@ Role = Literal["client", "server"]
 """Who proves: a proof of one side is worth nothing to the other."""
 
 
+@dataclass(frozen=True, slots=True)
+class TokenFile:
+    """A token that is kept in a file which only this user may read."""
+
+    name: str
+    """Of the file, in the state folder."""
+    remedy: str
+    """What makes another one."""
+    variable: str = ""
+    """The environment variable that takes precedence over the file; empty without one."""
+
+    @property
+    def path(self) -> Path:
+        """Where it is kept."""
+        return state_folder() / self.name
+
+    def load(self) -> str | None:
+        """The token; None when none has been made. Raises HriError as `load_token` does."""
+        named = os.environ.get(self.variable, "") if self.variable else ""
+        if named:
+            return self._checked(named, self.variable)
+        path = self.path
+        if not path.exists():
+            return None
+        _require_replaceable(path)
+        if not is_of_user(path) or stat.S_IMODE(path.stat().st_mode) & 0o077:
+            what = "others may read or change it, so it is not used"
+            raise HriError(f"{path}: {what} - {self.remedy}")
+        try:
+            text = read_text(path, "token")
+        except HriError as error:
+            raise HriError(f"{path}: no token can be read from it - {self.remedy}") from error
+        return self._checked(text.strip(), str(path))
+
+    def new(self) -> str:
+        """Make another one; the one before is worth nothing from now on. Raises HriError as
+        `new_token` does.
+        """
+        path, token = self.path, secrets.token_urlsafe(_BYTES)
+        _require_replaceable(path)
+        folder_for(path)
+        try:
+            if path.is_symlink():
+                path.unlink()
+        except OSError as error:
+            raise not_written(path, error) from error
+        write_text(path, token + "\n", PRIVATE)
+        return token
+
+    def is_shown(self, text: str) -> bool:
+        """Whether a text is the token, compared in constant time. Raises HriError as `load`."""
+        token = self.load()
+        return token is not None and hmac.compare_digest(text.encode(), token.encode())
+
+    def _checked(self, token: str, where: str) -> str:
+        if not _FORM.fullmatch(token):
+            what = f"{where}: a token has 16 to 200 letters, digits and -_.~+/="
+            raise HriError(f"{what} - {self.remedy}")
+        return token
+
+
+_ROBOT = TokenFile("token", "hri token --new makes another one", VARIABLE)
+
+
 def token_file() -> Path:
     """Where the token is kept."""
-    return state_folder() / "token"
+    return _ROBOT.path
 
 
 def load_token() -> str | None:
@@ -49,21 +113,7 @@ def load_token() -> str | None:
     Raises HriError for one that others may read or change, that is too short, is unreadable, or
     is not a file.
     """
-    named = os.environ.get(VARIABLE, "")
-    if named:
-        return _checked(named, VARIABLE)
-    path = token_file()
-    if not path.exists():
-        return None
-    _require_replaceable(path)
-    remedy = "hri token --new makes another one"
-    if not is_of_user(path) or stat.S_IMODE(path.stat().st_mode) & 0o077:
-        raise HriError(f"{path}: others may read or change it, so it is not used - {remedy}")
-    try:
-        text = read_text(path, "token")
-    except HriError as error:
-        raise HriError(f"{path}: no token can be read from it - {remedy}") from error
-    return _checked(text.strip(), str(path))
+    return _ROBOT.load()
 
 
 def new_token() -> str:
@@ -72,16 +122,7 @@ def new_token() -> str:
     A link in the place of the file is replaced, and what it leads to stays as it is. Raises
     HriError when the file cannot be written, or something else lies in its place.
     """
-    path, token = token_file(), secrets.token_urlsafe(_BYTES)
-    _require_replaceable(path)
-    folder_for(path)
-    try:
-        if path.is_symlink():
-            path.unlink()
-    except OSError as error:
-        raise not_written(path, error) from error
-    write_text(path, token + "\n", PRIVATE)
-    return token
+    return _ROBOT.new()
 
 
 def own_token() -> str:
@@ -148,8 +189,7 @@ def is_token(shown: str) -> bool:
 
     Raises HriError as `load_token` does.
     """
-    token = load_token()
-    return token is not None and hmac.compare_digest(shown.encode(), token.encode())
+    return _ROBOT.is_shown(shown)
 
 
 def _look(path: Path | None) -> tuple[int, ...]:
@@ -167,10 +207,3 @@ def _require_replaceable(path: Path) -> None:
     """Raise HriError for a folder, a pipe, or anything else that a new token cannot replace."""
     if path.exists() and not path.is_file() and not path.is_symlink():
         raise HriError(f"{path}: the token belongs here, but this is not a file - move it away")
-
-
-def _checked(token: str, where: str) -> str:
-    if not _FORM.fullmatch(token):
-        what = f"{where}: a token has 16 to 200 letters, digits and -_.~+/="
-        raise HriError(f"{what} - hri token --new makes one")
-    return token

@@ -6,7 +6,7 @@ import argparse
 import logging
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -100,16 +100,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_door_options(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+Beside = Callable[[Robot], Sequence[Job]]
+"""Gives more jobs, of someone who is there instead of a visitor."""
+
+
+def _nobody(robot: Robot) -> Sequence[Job]:
+    return ()
+
+
+def run(options: argparse.Namespace, beside: Beside = _nobody) -> int:
     """Check all files, then run until the end. Output that cannot be written does not stop the
-    robot.
+    robot. `beside` gives jobs that run as well.
     """
     if not (options.app or options.repeat):
         raise HriError("no app - name one, such as companion")
     ending = Ending()
     with unfailing_output(), ending.kept_for_later():
         if options.repeat is None:
-            return (_serve if options.service else _run)(options, ending)
+            if options.service:
+                return _serve(options, ending)
+            return _run(options, ending, beside=beside)
         with repeated(options, add_options, print) as recorded:
             return _run(recorded, ending)
 
@@ -133,7 +143,10 @@ def _serve(options: argparse.Namespace, ending: Ending) -> int:
 
 
 def _run(
-    options: argparse.Namespace, ending: Ending, notice: Callable[[str], object] = print
+    options: argparse.Namespace,
+    ending: Ending,
+    notice: Callable[[str], object] = print,
+    beside: Beside = _nobody,
 ) -> int:
     # Missed ticks are summed up at the end; only failures are logged at once.
     handler = logging.StreamHandler()
@@ -172,7 +185,8 @@ def _run(
     member = _member(robot, options)
     narrator = Narrator(robot)
     mention_kept(options, narrator)
-    session = Session(robot, options, narrator, ending)
+    hosted = beside(robot)
+    session = Session(robot, options, narrator, ending, has_visitors=not hosted)
     try:
         is_unseen = "screen" in open_senses(robot)
         if is_unseen and not (options.headless or options.fast or options.studio or options.record):
@@ -180,8 +194,9 @@ def _run(
         if studio is not None:
             studio.start()
             show_address(studio, options, narrator.tell)
-        beside = (*(studio.jobs() if studio else ()), *([member.be_in_fleet] if member else ()))
-        robot.live_until_over(*tasks, *session.jobs(), *beside)
+        more = (*(studio.jobs() if studio else ()), *hosted)
+        more += (member.be_in_fleet,) if member is not None else ()
+        robot.live_until_over(*tasks, *session.jobs(), *more)
     finally:
         if studio is not None:
             studio.close()
@@ -283,9 +298,16 @@ class Session:
     """One run of an app: its visitor, its narration, its end."""
 
     def __init__(
-        self, robot: Robot, options: argparse.Namespace, narrator: Narrator, ending: Ending
+        self,
+        robot: Robot,
+        options: argparse.Namespace,
+        narrator: Narrator,
+        ending: Ending,
+        has_visitors: bool = True,
     ) -> None:
+        """`has_visitors`: where there is no microphone, a simulated person may visit."""
         self.robot = robot
+        self._has_visitors = has_visitors
         self.ending = ending
         self.options = options
         self.narrator = narrator
@@ -318,7 +340,7 @@ class Session:
         if self.options.audio is not None or self.options.service:
             return
         resources = self.robot.resources
-        is_deaf = resources.stand_in_of("microphone") is not None
+        is_deaf = self._has_visitors and resources.stand_in_of("microphone") is not None
         if self._authored is not None and (self.options.demo or is_deaf):
             world = resources.obtain("world", SimulatedWorld)
             if not world.people and not self.options.demo:
