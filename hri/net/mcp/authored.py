@@ -87,7 +87,7 @@ def _of_apps(app: App) -> Iterator[Authored]:
 
 
 def _kind_in_app(path: Path) -> str:
-    """Of a file of an app; empty for one that is no one's business, such as a program."""
+    """Of a file of an app; empty for any other, such as a program."""
     if path.suffix != ".toml" or path.name in _NOT_REPLIES:
         return _SUFFIXES.get(path.suffix, "")
     try:

@@ -17,6 +17,7 @@ from hri.core.quoting import quoted
 from hri.hal.pending import Interrupted
 from hri.net.mcp.arguments import checked
 from hri.net.mcp.permission import Kind, Permission, flag_for
+from hri.net.mcp.rate import Rate
 from hri.net.mcp.recent_events import RecentEvents
 from hri.net.mcp.tools import TOOLS, Asked, Tool
 from hri.robot import Robot
@@ -45,23 +46,6 @@ class Caller:
     """By which door it came: "stdio" or "http"."""
     client: str
     """What it calls itself, which proves nothing."""
-
-
-class Rate:
-    """Lets so many things happen at once, and then so many a second: a token bucket."""
-
-    def __init__(self, burst: float, a_second: float) -> None:
-        self._burst, self._a_second = burst, a_second
-        self._left, self._since = burst, 0.0
-
-    def take(self, now: float) -> bool:
-        """Whether one more may happen now, seconds; then it has."""
-        self._left = min(self._burst, self._left + (now - self._since) * self._a_second)
-        self._since = now
-        if self._left < 1:
-            return False
-        self._left -= 1
-        return True
 
 
 class Calls:

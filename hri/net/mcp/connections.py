@@ -21,6 +21,7 @@ from hypercorn.utils import wrap_app
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from hri.core.errors import HriError
+from hri.net.mcp.rate import Rate
 
 MOST = 32
 """Connections at once."""
@@ -29,6 +30,10 @@ STRANGER_S = 5.0
 """Seconds in which a stranger has to show the bearer."""
 LOOK_EVERY = 0.5
 """Seconds between two looks for strangers whose time is over."""
+BURST, A_SECOND = 64.0, 64.0
+"""Newcomers that are let in at once, and then each second."""
+FULL = 0.1
+"""Seconds to wait when the system has no room for another connection."""
 LONGEST_HEAD = 32_768
 """Bytes of the head of a request."""
 MOST_STREAMS = 8
@@ -77,9 +82,15 @@ class Connections:
     async def serve(self, listening: socket.socket) -> None:
         """For ever."""
         listener = trio.SocketListener(trio.socket.from_stdlib_socket(listening))
+        rate = Rate(BURST, A_SECOND)
         async with trio.open_nursery() as nursery:
             nursery.start_soon(self._close_overdue)
-            await trio.serve_listeners(self._take, [listener])
+            while True:
+                await rate.turn()
+                try:
+                    nursery.start_soon(self._take, await listener.accept())
+                except OSError:
+                    await trio.sleep(FULL)
 
     async def _take(self, stream: trio.SocketStream) -> None:
         """Serve a connection to its end, whatever that is."""
@@ -123,7 +134,7 @@ class Connections:
 
 
 def know(scope: Scope) -> None:
-    """Whoever sent this request showed the bearer: its connection is no stranger's."""
+    """Whoever sent this request showed the bearer: its connection stays."""
     seat = scope.get(SEAT)
     if seat is not None:
         seat.is_known = True

@@ -1,7 +1,7 @@
 """The door over HTTP: looks at each request before the SDK sees it.
 
 Only this machine may come, under its own name, from no web page of another site, with the bearer,
-and with a short body. Whoever breaks the connection off ends what it asked for.
+and with a short body. A connection that breaks off ends its requests.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from hri.net.mcp import bearer
 from hri.net.mcp.connections import know
 from hri.net.mcp.protocol import GONE
+from hri.net.mcp.rate import Rate
 
 PATH = "/mcp"
 LONGEST_BODY = 1_000_000
@@ -31,7 +32,11 @@ IDLE = 600.0
 """Seconds without a request after which a session ends."""
 MOST_REQUESTS = 32
 """Requests at once; further ones are refused."""
+BURST, A_SECOND = 200.0, 200.0
+"""Requests that are looked at, at once and then each second; more wait."""
 HEADERS = {"cache-control": "no-store", "x-content-type-options": "nosniff"}
+LEAVE = {"connection": "close"}
+"""What a stranger gets as well: each further try takes another connection."""
 STRANGER = "show the bearer: Authorization: Bearer ... (hri mcp token prints it)"
 
 
@@ -55,10 +60,12 @@ class Guard:
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
         self._under_way = 0
+        self._rate = Rate(BURST, A_SECOND)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             return
+        await self._rate.turn()
         if (refusal := self._refusal(scope)) is not None:
             await refusal(scope, receive, send)
             return
@@ -73,11 +80,13 @@ class Guard:
         headers = Headers(scope=scope)
         hosts, length = headers.getlist("host"), headers.get("content-length", "0")
         if len(hosts) != 1 or not is_own_host(hosts[0]):
-            return _refused(403, "this name is not this machine's - use the address as printed")
+            return _refused(
+                403, "this name is not this machine's - use the address as printed", LEAVE
+            )
         if not is_own_origin(headers.get("origin"), hosts[0]):
-            return _refused(403, "a page of another site may not use the robot")
+            return _refused(403, "a page of another site may not use the robot", LEAVE)
         if not bearer.is_shown(headers.get("authorization", "")):
-            return _refused(401, STRANGER, {"www-authenticate": "Bearer"})
+            return _refused(401, STRANGER, {"www-authenticate": "Bearer", **LEAVE})
         if scope["path"] != PATH:
             return _refused(404, f"not found - MCP is at {PATH}")
         if not (length.isdecimal() and len(length) < 10 and int(length) <= LONGEST_BODY):

@@ -24,7 +24,7 @@ WITHHELD = frozenset(
 )
 """Properties that may hold what a person said, or a path."""
 NAMES_THINGS = frozenset(("gesture.started", "gesture.ended"))
-"""Events whose `name` is no person's."""
+"""Events whose `name` is that of a thing."""
 REMEMBERED = "remember"
 """The tag of a rule by which people say something about themselves."""
 
@@ -73,7 +73,7 @@ class RecentEvents:
         return without(self.names.known(self._context), text)
 
     def _words(self, event: Event) -> str:
-        """What was said, where that is a command, or what an assistant let the robot say."""
+        """The words of a command, or of an assistant that spoke by the robot."""
         text = str(event.properties.get("text", ""))
         if event.name == "speech.said" and event.origin == MCP:
             return text

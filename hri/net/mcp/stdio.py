@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import AsyncIterator, Iterator
-from contextlib import asynccontextmanager, contextmanager
+from contextlib import asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass, field
 
 import anyio
@@ -17,10 +17,14 @@ import trio
 from anyio.streams.memory import MemoryObjectReceiveStream, MemoryObjectSendStream
 from mcp.shared.message import SessionMessage
 
+from hri.net.mcp.rate import Rate
+
 LONGEST_LINE = 1_000_000
 """Bytes of a message; a longer one is passed over."""
 MOST_WAITING = 32
 """Requests that are not answered yet; no more is read before one is."""
+BURST, A_SECOND = 500.0, 500.0
+"""Messages that are taken at once, and then each second: the robot's loop has more to do."""
 CHUNK = 65_536
 """Bytes that are read at once."""
 
@@ -62,6 +66,13 @@ class Waiting:
 
     ids: set[str] = field(default_factory=set)
     changed: trio.Event = field(default_factory=trio.Event)
+
+    def taken(self, line: bytes | TooLong) -> SessionMessage | Exception | None:
+        """What a line is to the server; None for a request that has no place."""
+        message = line if isinstance(line, TooLong) else _parsed(line)
+        if isinstance(message, Exception):
+            return message
+        return SessionMessage(message) if self.note(message) else None
 
     def note(self, message: types.JSONRPCMessage) -> bool:
         """Take a message in; False for a request whose id is in use, which has no place."""
@@ -123,8 +134,7 @@ async def streams(wire: Wire) -> AsyncIterator[tuple[Incoming, Outgoing]]:
     waiting = Waiting()
     source = trio.lowlevel.FdStream(os.dup(wire.input))
     sink = trio.lowlevel.FdStream(os.dup(wire.output))
-    # What waits inside of the SDK for a reader that has gone must not keep the robot from ending.
-    async with source, sink, to_wire, trio.open_nursery() as nursery:
+    async with source, sink, to_wire, incoming, outgoing, trio.open_nursery() as nursery:
         nursery.start_soon(_read, source, to_server, waiting)
         nursery.start_soon(_write, sink, to_wire, waiting)
         try:
@@ -138,16 +148,15 @@ async def _read(
     to_server: MemoryObjectSendStream[SessionMessage | Exception],
     waiting: Waiting,
 ) -> None:
-    lines = Lines()
+    lines, rate = Lines(), Rate(BURST, A_SECOND)
     async with to_server:
-        while data := await source.receive_some(CHUNK):
-            for line in lines.feed(data):
-                await waiting.until_few()
-                message = line if isinstance(line, TooLong) else _parsed(line)
-                if isinstance(message, Exception) or waiting.note(message):
-                    await to_server.send(
-                        message if isinstance(message, Exception) else SessionMessage(message)
-                    )
+        with suppress(trio.BrokenResourceError):  # an input that breaks has ended
+            while data := await source.receive_some(CHUNK):
+                for line in lines.feed(data):
+                    await rate.turn()
+                    await waiting.until_few()
+                    if (message := waiting.taken(line)) is not None:
+                        await to_server.send(message)
 
 
 def _parsed(line: bytes) -> types.JSONRPCMessage | Exception:

@@ -1,4 +1,4 @@
-"""The tools: what each does, what it takes, of which kind it is. One table, `TOOLS`."""
+"""The tools: deeds, arguments, kinds. One table, `TOOLS`."""
 
 from __future__ import annotations
 
@@ -256,7 +256,7 @@ async def _say_to_it(asked: Asked, text: str) -> Any:
     grammar = listener.loaded_grammar
     meant = await context.blocking(parse, grammar, text)
     if meant is not None and (meant.rule in FOR_PEOPLE or not is_impersonal(grammar, text)):
-        raise HriError("only a person may say this to it - it is about a person")
+        raise HriError("only a person may say this to it - say what its grammar lists, of no one")
     told: list[Heard] = []
     listener.type_line(text, told.append)
     with context.clock.move_on_after(UNDERSTOOD_WITHIN):
