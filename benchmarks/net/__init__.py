@@ -1,1 +1,1 @@
-"""What a network costs, and what is lost on it."""
+"""The network."""

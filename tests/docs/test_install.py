@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import tomllib
+from itertools import chain
 
 import pytest
 from packaging.requirements import Requirement
@@ -75,6 +76,16 @@ def locked(name):
         yield Requirement(requirement), hashes
 
 
+def with_own_extras(lines):
+    """Requirements, with those of `hri[...]` instead of it."""
+    found = []
+    for one in map(Requirement, lines):
+        extras = [PROJECT["optional-dependencies"][extra] for extra in one.extras]
+        is_own = canonicalize_name(one.name) == "hri"
+        found += with_own_extras(chain.from_iterable(extras)) if is_own else [one]
+    return found
+
+
 def chosen(name, version, system, machine):
     """The locked version of each package for a Python and a system."""
     target = {
@@ -84,7 +95,7 @@ def chosen(name, version, system, machine):
     entries = [one for one, _ in locked(name) if one.marker is None or one.marker.evaluate(target)]
     found = {canonicalize_name(one.name): str(one.specifier).removeprefix("==") for one in entries}
     assert len(found) == len(entries)
-    wanted = (Requirement(line) for line in LOCKED[name])
+    wanted = with_own_extras(LOCKED[name])
     return found, [one for one in wanted if one.marker is None or one.marker.evaluate(target)]
 
 

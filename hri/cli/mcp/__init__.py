@@ -9,6 +9,7 @@ from contextlib import closing
 from hri.cli import run as run_app
 from hri.cli.mcp import token
 from hri.cli.terminal.messages import Within
+from hri.cli.terminal.streams import open_missing
 from hri.core.errors import HriError, NotAvailable
 from hri.core.quoting import report
 from hri.net.mcp.permission import FLAGS, Permission
@@ -76,6 +77,7 @@ def _over_stdio(options: argparse.Namespace, permission: Permission) -> int:
     from hri.net.mcp import stdio
     from hri.net.mcp.session import StdioSession
 
+    open_missing()
     with stdio.taken() as wire:
         return run_app.run(options, lambda robot: [StdioSession(robot, permission, wire).serve])
 

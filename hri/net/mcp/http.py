@@ -32,7 +32,7 @@ IDLE = 600.0
 """Seconds without a request after which a session ends."""
 MOST_REQUESTS = 32
 """Requests at once; further ones are refused."""
-BURST, A_SECOND = 200.0, 200.0
+BURST, A_SECOND = 100.0, 100.0
 """Requests that are looked at, at once and then each second; more wait."""
 HEADERS = {"cache-control": "no-store", "x-content-type-options": "nosniff"}
 LEAVE = {"connection": "close"}

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from dataclasses import dataclass
 from typing import Any
 
 from hri.core.origin import MCP
 from hri.core.signals import Event
 from hri.net.mcp.names import Names, without
 from hri.speech.behaviors import Listener
-from hri.speech.grammar import Grammar, parse
+from hri.speech.grammar.expressions import Anything, RuleReference
+from hri.speech.grammar.rules import Rule, Rules
 from hri.task.context import TaskContext
 
 MOST = 200
@@ -20,7 +22,7 @@ LONGEST_VALUE = 200
 PRIVATE = ("alarm.", "memory.", "person.named", "speech.partial", "visitor.", "odometry", "studio.")
 """How the names of events begin that an assistant is not shown."""
 WITHHELD = frozenset(
-    ("text", "detail", "answer", "arguments", "name", "tags", "about", "file", "error")
+    ("about", "answer", "arguments", "command", "detail", "error", "file", "name", "tags", "text")
 )
 """Properties that may hold what a person said, or a path."""
 NAMES_THINGS = frozenset(("gesture.started", "gesture.ended"))
@@ -31,12 +33,28 @@ REMEMBERED = "remember"
 Shown = dict[str, Any]
 
 
+@dataclass(frozen=True, slots=True)
+class _Command:
+    """Words that were heard, and what says whether they may be shown."""
+
+    grammar: Rules
+    rule: str
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Kept:
+    number: int
+    told: Shown
+    command: _Command | None = None
+
+
 class RecentEvents:
     """Listens to the robot, and keeps what may be shown."""
 
     def __init__(self, context: TaskContext) -> None:
         self._context = context
-        self._kept: deque[tuple[int, Shown]] = deque(maxlen=MOST)
+        self._kept: deque[_Kept] = deque(maxlen=MOST)
         self._count = 0
         self.names = Names()
         self._subscription = context.events.subscribe("*", self._hear)
@@ -45,13 +63,26 @@ class RecentEvents:
         """Listen no more."""
         self._subscription.cancel()
 
-    def after(self, number: int, most: int) -> list[Shown]:
+    async def after(self, number: int, most: int) -> list[Shown]:
         """The newest ones whose numbers are higher, oldest first."""
-        return [event for count, event in self._kept if count > number][-most:]
+        found = [one for one in self._kept if one.number > number][-most:]
+        return [await self._shown(one) for one in found]
 
-    def last(self, name: str) -> Shown | None:
+    async def last(self, name: str) -> Shown | None:
         """The newest one of a name."""
-        return next((event for _, event in reversed(self._kept) if event["event"] == name), None)
+        found = next((one for one in reversed(self._kept) if one.told["event"] == name), None)
+        return None if found is None else await self._shown(found)
+
+    async def _shown(self, kept: _Kept) -> Shown:
+        """It as it is shown, with the words of a command, but of none in which people speak of
+        themselves. Whether that is so takes a grammar some time, so it is asked aside.
+        """
+        if (command := kept.command) is None:
+            return kept.told
+        personal = await self._context.blocking(command.grammar.made, personal_rules)
+        if command.rule in personal:
+            return kept.told
+        return {**kept.told, "text": self._nameless(command.words)[:LONGEST_VALUE]}
 
     def _hear(self, event: Event) -> None:
         self.names.note(event)
@@ -65,31 +96,41 @@ class RecentEvents:
             is_thing = key == "name" and event.name in NAMES_THINGS
             if (key not in WITHHELD or is_thing) and (shown := _shown(value)) is not None:
                 told[key] = self._nameless(shown) if isinstance(shown, str) else shown
-        if words := self._words(event):
-            told["text"] = self._nameless(words)[:LONGEST_VALUE]
-        self._kept.append((self._count, told))
+        if event.name == "speech.said" and event.origin == MCP:
+            told["text"] = self._nameless(str(event.properties.get("text", "")))[:LONGEST_VALUE]
+        self._kept.append(_Kept(self._count, told, self._command(event)))
 
     def _nameless(self, text: str) -> str:
         return without(self.names.known(self._context), text)
 
-    def _words(self, event: Event) -> str:
-        """The words of a command, or of an assistant that spoke by the robot."""
-        text = str(event.properties.get("text", ""))
-        if event.name == "speech.said" and event.origin == MCP:
-            return text
-        if event.name != "speech.heard":
-            return ""
+    def _command(self, event: Event) -> _Command | None:
+        """What was heard; None for anything else, and for words that no grammar lists."""
         listener = self._context.find_behavior(Listener)
-        grammar = None if listener is None else listener.loaded_grammar
-        return text if grammar is not None and is_impersonal(grammar, text) else ""
+        if event.name != "speech.heard" or listener is None or "spoken" in event.properties:
+            return None
+        rule, words = (str(event.properties.get(key, "")) for key in ("rule", "command"))
+        return _Command(listener.loaded_grammar, rule, words)
 
 
-def is_impersonal(grammar: Grammar, text: str) -> bool:
-    """Whether a sentence has only words that the grammar lists, and says nothing of the speaker."""
-    found = parse(grammar, text)
-    if found is None or found.free or found.slots:
-        return False
-    return all(tag.name != REMEMBERED for tag in grammar.rules[found.rule].doc_tags)
+def personal_rules(grammar: Rules) -> frozenset[str]:
+    """The rules by which people say something of themselves, or words that no one listed."""
+    found = {key for key, rule in grammar.rules.items() if _is_personal(rule)}
+    uses = {key: _used(rule) for key, rule in grammar.rules.items()}
+    before = -1
+    while before != len(found):
+        before = len(found)
+        found |= {key for key, used in uses.items() if not used.isdisjoint(found)}
+    return frozenset(found)
+
+
+def _is_personal(rule: Rule) -> bool:
+    """Whether a rule itself is so."""
+    has_slot = any(isinstance(node, Anything) and node.slot for node in rule.nodes)
+    return has_slot or any(tag.name == REMEMBERED for tag in rule.doc_tags)
+
+
+def _used(rule: Rule) -> frozenset[str]:
+    return frozenset(node.name for node in rule.nodes if isinstance(node, RuleReference))
 
 
 def _shown(value: object) -> str | float | bool | None:

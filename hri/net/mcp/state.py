@@ -1,4 +1,4 @@
-"""What the robot hears, sees, feels and does now, and why; nobody's name."""
+"""What the robot sees, feels and does now, and why; nobody's name."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from hri.hal.drive import Odometry
 from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.range_sensor import RangeSensor
 from hri.net.mcp.names import without
-from hri.net.mcp.recent_events import RecentEvents
 from hri.robot.app import App
 from hri.speech.behaviors import Listener, Voice
 from hri.task.context import TaskContext
@@ -27,15 +26,14 @@ FAINT = 0.02
 Shown = dict[str, Any]
 
 
-def state(context: TaskContext, recent: RecentEvents) -> Shown:
-    """All of it, as JSON."""
+def state(context: TaskContext, names: frozenset[str]) -> Shown:
+    """All of it, as JSON, without the names of people."""
     return {
         "app": App.of(context).name,
-        "heard": recent.last("speech.heard"),
         "speech": _speech(context),
-        "feeling": _feeling(context, recent),
+        "feeling": _feeling(context, names),
         "eyes": _eyes(context),
-        "base": _base(context, recent),
+        "base": _base(context, names),
         "battery": _battery(context),
         "doing": [task.name for task in context.manager.running[:MOST_TASKS]],
     }
@@ -50,11 +48,11 @@ def _speech(context: TaskContext) -> Shown:
     }
 
 
-def _feeling(context: TaskContext, recent: RecentEvents) -> Shown | None:
+def _feeling(context: TaskContext, names: frozenset[str]) -> Shown | None:
     emotion = context.find_behavior(EmotionModel)
     if emotion is None:
         return None
-    state, names = emotion.feeling(), recent.names.known(context)
+    state = emotion.feeling()
     return {
         "label": state.label,
         "words": emotion.feeling_words(),
@@ -91,7 +89,7 @@ def _person(person: Person, attended: str) -> Shown:
     }
 
 
-def _base(context: TaskContext, recent: RecentEvents) -> Shown | None:
+def _base(context: TaskContext, names: frozenset[str]) -> Shown | None:
     resources, now = context.resources, context.clock.now()
     base = next(iter(resources.opened(EmergencyStop)), None)
     if base is None:
@@ -100,7 +98,7 @@ def _base(context: TaskContext, recent: RecentEvents) -> Shown | None:
     velocity = None if odometry is None else odometry.velocity(now)
     return {
         "is_stopped": base.is_latched,
-        "why_it_stopped": without(recent.names.known(context), base.explain()),
+        "why_it_stopped": without(names, base.explain()),
         "speed_m_s": None if velocity is None else _short(velocity.linear),
         "turning_deg_s": None if velocity is None else _short(math.degrees(velocity.angular)),
         "free_m": {one.id: _distance(one, now) for one in resources.opened(RangeSensor)},

@@ -23,7 +23,7 @@ LONGEST_LINE = 1_000_000
 """Bytes of a message; a longer one is passed over."""
 MOST_WAITING = 32
 """Requests that are not answered yet; no more is read before one is."""
-BURST, A_SECOND = 500.0, 500.0
+BURST, A_SECOND = 100.0, 200.0
 """Messages that are taken at once, and then each second: the robot's loop has more to do."""
 CHUNK = 65_536
 """Bytes that are read at once."""

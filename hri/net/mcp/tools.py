@@ -25,7 +25,7 @@ from hri.net.mcp.arguments import Argument, Choice, Number, Text
 from hri.net.mcp.checking import findings
 from hri.net.mcp.names import without
 from hri.net.mcp.permission import Kind
-from hri.net.mcp.recent_events import MOST as MOST_EVENTS, RecentEvents, is_impersonal
+from hri.net.mcp.recent_events import MOST as MOST_EVENTS, RecentEvents, personal_rules
 from hri.net.mcp.state import state
 from hri.robot import Robot, verbs
 from hri.speech.behaviors import Listener
@@ -102,11 +102,12 @@ class Tool:
 
 
 async def _state(asked: Asked) -> Any:
-    return state(asked.context, asked.recent)
+    heard = await asked.recent.last("speech.heard")
+    return {"heard": heard, **state(asked.context, asked.recent.names.known(asked.context))}
 
 
 async def _events(asked: Asked, after: float, most: float) -> Any:
-    return {"events": asked.recent.after(int(after), int(most))}
+    return {"events": await asked.recent.after(int(after), int(most))}
 
 
 async def _look(asked: Asked) -> Picture:
@@ -207,9 +208,9 @@ async def _ask(asked: Asked, question: str, seconds: float, grammar: str) -> Any
     if not isinstance(answer, Utterance):
         return {"answer": answer}
     heard = await context.blocking(load_grammar, path)
-    is_shown = is_impersonal(heard, answer.text)
-    text = without(asked.recent.names.known(context), answer.text) if is_shown else None
-    return {"answer": text, "rule": answer.rule}
+    is_shown = answer.rule not in heard.made(personal_rules)
+    text = without(asked.recent.names.known(context), answer.command or answer.text)
+    return {"answer": text if is_shown else None, "rule": answer.rule}
 
 
 async def _show(asked: Asked, expression: str, seconds: float) -> Any:
@@ -255,7 +256,8 @@ async def _say_to_it(asked: Asked, text: str) -> Any:
     listener = context.behavior(Listener)
     grammar = listener.loaded_grammar
     meant = await context.blocking(parse, grammar, text)
-    if meant is not None and (meant.rule in FOR_PEOPLE or not is_impersonal(grammar, text)):
+    personal = await context.blocking(grammar.made, personal_rules)
+    if meant is not None and (meant.rule in personal | FOR_PEOPLE):
         raise HriError("only a person may say this to it - say what its grammar lists, of no one")
     told: list[Heard] = []
     listener.type_line(text, told.append)

@@ -263,14 +263,21 @@ def test_no_name_and_no_memory_of_a_person_is_shown(moving):
         bus.raise_event("person.named", person="p1", name="Anastasia")
         bus.raise_event("memory.begun", file="/home/anastasia/people.json")
         bus.raise_event("speech.said", text="Your sister is called Eva.")
-        bus.raise_event("speech.heard", text="i like jazz", rule="told_of_likes")
-        bus.raise_event("speech.heard", text="go forward", rule="move")
+        bus.raise_event(
+            "speech.heard", text="i like jazz", command="i like jazz", rule="told_of_likes"
+        )
+        bus.raise_event("speech.heard", text="go forward", command="go forward", rule="move")
+        bus.raise_event(
+            "speech.heard", text="i am bo", command="i am bo", rule="x", spoken={"n": 1}
+        )
         bus.raise_event("speech.rejected", text="a secret", reason="not in grammar")
         bus.raise_event("drive.stopped", reason="done", words="Anastasia stopped me.")
 
     moving.run(_soon(happen))
-    told = moving.told("events", most=8)
-    assert not any(word in told for word in ("Anastasia", "anastasia", "Eva", "jazz", "secret"))
+    told = moving.told("events", most=9)
+    assert not any(
+        word in told for word in ("Anastasia", "anastasia", "Eva", "jazz", "secret", "am bo")
+    )
     assert "someone stopped me." in told
     assert '"text": "go forward"' in told
 
