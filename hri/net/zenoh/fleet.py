@@ -130,7 +130,7 @@ class Fleet:
                 news.wait_for(lambda: bool(came), max(min(renew, end) - self._clock.now(), 0.0))
                 told, came[:] = list(came), []
             for robot, event in told:
-                yield {"robot": robot, **event}
+                yield {"robot": robot} | event | {"robot": robot}
 
 
 @contextmanager

@@ -35,6 +35,7 @@ from hri.net.zenoh.requests import Asked, Request, answer_to
 from hri.net.zenoh.seal import Envelope, Pen, Reader, Tickets, envelope_of, hello_of, require_seal
 from hri.net.zenoh.session import PATIENCE, ROBOTS, FleetSettings, check, is_name, opened
 from hri.robot import Robot
+from hri.robot.recording import REJECTED
 from hri.task.context import TaskContext
 
 if TYPE_CHECKING:
@@ -232,11 +233,14 @@ class Member:
         return {*DECLARED, *self.robot.board}
 
     def _tell(self, event: Event) -> None:
-        """Send an event that someone wants."""
+        """Send an event that someone wants, as a recording has it."""
         if event.time <= self._events_until:
-            told = {"event": event.name, "time": event.time, "properties": dict(event.properties)}
+            withheld = REJECTED.get(event.name, ())
+            told = {key: "" if key in withheld else one for key, one in event.properties.items()}
+            own = {"t": round(event.time, 4), "event": event.name}
+            own |= {"origin": event.origin} if event.origin else {}
             try:
-                data = msgspec.json.encode(told, enc_hook=str)
+                data = msgspec.json.encode({**own, **told, **own}, enc_hook=str)
             except (TypeError, ValueError, RecursionError):
                 return
             key = f"hri/{self.settings.name}/event/{event.name}"

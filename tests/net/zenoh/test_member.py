@@ -116,7 +116,7 @@ def test_what_happens_is_watched(living):
         event = next(one for one in watched if one["event"] == "fleet.asked")
         over.set()
         asking.join(WITHIN)
-    assert (event["robot"], event["properties"]["verb"]) == ("anna", "release")
+    assert (event["robot"], event["verb"], event["origin"]) == ("anna", "release", "fleet")
 
 
 @pytest.mark.parametrize("name", ["Anna", "an na", "a/b", "*", "", "x" * 40])
