@@ -10,6 +10,7 @@ import pytest
 import trio
 from hypothesis import given, settings, strategies as st
 
+from hri.conversation.personal_data import Drafts
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.origin import MCP
@@ -339,6 +340,7 @@ def test_a_change_is_kept_as_a_draft_that_changes_nothing(moving):
     answer = json.loads(moving.told("propose_change", name=name, text=changed))
     (draft,) = proposals.drafts()
     assert draft.name == answer["kept"]
+    assert draft.resolve() in Drafts().places()
     assert draft.read_text() == changed
     assert draft.stat().st_mode & 0o077 == 0
     assert file.read_text() == before
