@@ -9,11 +9,14 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import multiprocessing
 import os
+import random
 import signal
+import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
@@ -22,17 +25,21 @@ from typing import Any
 
 import numpy as np
 import psutil
+import zenoh
 
-from hri.behavior.behavior import Behavior
+from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.ports import Output
 from hri.bench.figures import machine
 from hri.bench.table import Row, amount, at_least, at_most
 from hri.bench.workers import variables
 from hri.core.errors import HriError
+from hri.hal.drive import DriveSystem
+from hri.hal.resource import Resource
+from hri.net.zenoh.fleet import Fleet
 from hri.net.zenoh.member import Member
 from hri.net.zenoh.remote_slot import RemoteSlot
-from hri.net.zenoh.session import FleetSettings
+from hri.net.zenoh.session import FleetSettings, opened
 from hri.robot import Robot
 from hri.task.context import TaskContext
 
@@ -42,6 +49,9 @@ SECONDS = 10.0
 PORTS = 100
 """Values at 100 Hz each: 10,000 a second."""
 KILLS = 10
+ROBOTS, PROCESSES = 100, 4
+MESSAGES = 100_000
+SEED = 7
 EMPTY = '<BehaviorNetwork name="empty"/>'
 
 
@@ -166,14 +176,162 @@ def _lost(folder: str, number: signal.Signals) -> float:
     return found[0]
 
 
+class Counter(Behavior):
+    """Counts its ticks."""
+
+    count = Output[float]("double", "ticks")
+
+    def start(self, context: Context) -> None:
+        self._count = 0
+
+    def compute(self, now: float, dt: float) -> None:
+        self._count += 1
+        self.count.send(float(self._count))
+
+
+def _living_crowd(names: Sequence[str], folder: str, pipe: Pipe) -> None:
+    """A process with several robots, a thread each: a simulated base, sensors, and a counter."""
+    ended = threading.Event()
+
+    def live(name: str) -> None:
+        robot = Robot(str(Path(folder, "empty.xml")), "simulated")
+        member = Member(robot, FleetSettings(name))
+
+        async def begin(context: TaskContext) -> None:
+            context.resources.obtain("drive", DriveSystem)
+            for sensor in ("range_front", "battery"):
+                context.resources.obtain(sensor, Resource)
+            network = Network("clock", interval=0.1)
+            network.add(Counter("counter"))
+            network.connect("counter.count", "board.count")
+            context.networks.start(network)
+            while not ended.is_set():
+                await context.clock.sleep(0.2)
+            robot.finish()
+
+        robot.live_until_over(member.be_in_fleet, begin)
+
+    threads = [threading.Thread(target=live, args=(name,)) for name in names]
+    for thread in threads:
+        thread.start()
+    pipe.send(os.getpid())
+    pipe.recv()
+    ended.set()
+    for thread in threads:
+        thread.join()
+
+
+def crowd(folder: str) -> Iterator[Row]:
+    """Robots of several processes, each with a base, sensors and a network of 10 Hz; one reads all
+    of their counters.
+    """
+    names = [f"robot{number}" for number in range(ROBOTS)]
+    context = multiprocessing.get_context("spawn")
+    processes, pipes, pids = [], [], []
+    for number in range(PROCESSES):
+        here, there = context.Pipe()
+        given = (names[number::PROCESSES], folder, there)
+        processes.append(context.Process(target=_living_crowd, args=given, daemon=True))
+        processes[-1].start()
+        pipes.append(here)
+        pids.append(here.recv())
+    robot = Robot(str(Path(folder, "empty.xml")), "simulated")
+    member = Member(robot, FleetSettings("reader"))
+    counts: dict[str, set[float]] = {name: set() for name in names}
+    used: list[float] = []
+
+    async def watch(context: TaskContext) -> None:
+        slots = {name: context.board.slot(f"{name}/count") for name in names}
+        end = context.clock.now() + PATIENCE
+        while any(slot.value is None for slot in slots.values()) and context.clock.now() < end:
+            await context.clock.sleep(0.1)
+        before, begun = _used(pids), time.perf_counter()
+        while time.perf_counter() - begun < SECONDS:
+            for name, slot in slots.items():
+                if slot.value is not None:
+                    counts[name].add(slot.value)
+            await context.clock.sleep(0.02)
+        used.extend([_used(pids) - before, time.perf_counter() - begun])
+        robot.finish()
+
+    robot.live_until_over(member.be_in_fleet, watch)
+    memory = sum(psutil.Process(pid).memory_info().rss for pid in pids)
+    for pipe in pipes:
+        pipe.send(None)
+    for process in processes:
+        process.join(PATIENCE)
+    lost = sum(max(one) - min(one) + 1 - len(one) if one else math.inf for one in counts.values())
+    share = used[0] / used[1] / ROBOTS
+    yield amount(f"{ROBOTS} robots, one reads all: values lost", lost, "values", at_most(0))
+    yield amount(f"{ROBOTS} robots: processor of each", 100 * share, "% of a core", None)
+    yield amount(f"{ROBOTS} robots: memory of each", memory / ROBOTS / 1e6, "MB", None)
+
+
+def _used(pids: Sequence[int]) -> float:
+    times = (psutil.Process(pid).cpu_times() for pid in pids)
+    return float(sum(one.user + one.system for one in times))
+
+
+def hostile(folder: str) -> Iterator[Row]:
+    """Messages that are damaged, foreign, or came before, to each key of a robot."""
+    chance = random.Random(SEED)
+    with _other("writer", folder, 1) as (_, pid), opened(FleetSettings()) as session:
+        robots = Fleet(session)
+        while "writer" not in robots.names():
+            pass
+        heard: list[tuple[str, bytes, bytes]] = []
+
+        def hear(sample: zenoh.Sample) -> None:
+            if len(heard) < 100 and sample.attachment is not None:
+                payload, sealed = sample.payload.to_bytes(), sample.attachment.to_bytes()
+                heard.append((str(sample.key_expr), payload, sealed))
+
+        session.declare_subscriber("hri/writer/values/**", hear)
+        before, memory = robots.ask("writer", "state", {}), psutil.Process(pid).memory_info().rss
+        for number in range(MESSAGES):
+            key, payload, sealed = _bad(chance, heard)
+            if number % 10:
+                session.put(key, payload, attachment=sealed)
+            else:
+                asked = chance.choice(("hello", "do"))
+                session.get(
+                    f"hri/writer/{asked}", lambda reply: None, payload=payload, attachment=sealed
+                )
+        after = robots.ask("writer", "state", {})
+        grown = (psutil.Process(pid).memory_info().rss - memory) / 1e6
+        is_same = {**after, "seconds": 0} == {**before, "seconds": 0}
+    yield amount(f"{MESSAGES} hostile messages: memory grown", grown, "MB", at_most(30.0))
+    yield amount("it answers, and is as before", float(is_same), "", at_least(1.0))
+
+
+def _bad(
+    chance: random.Random, heard: Sequence[tuple[str, bytes, bytes]]
+) -> tuple[str, bytes, bytes]:
+    """A message that must not count: its key, payload and envelope."""
+    kind = chance.randrange(3)
+    if kind == 0 or not heard:
+        key = f"hri/writer/put/{chance.choice(('drive.command', 'people', 'x', 'a/b'))}/anna"
+        return key, chance.randbytes(chance.randrange(200)), chance.randbytes(chance.randrange(120))
+    key, payload, sealed = chance.choice(heard)
+    if kind == 1:  # as it was, to another key
+        return f"hri/writer/put/drive.command/{chance.choice(('writer', 'anna'))}", payload, sealed
+    damaged = bytearray(sealed)
+    damaged[chance.randrange(len(damaged))] ^= 1 << chance.randrange(8)
+    return key, payload, bytes(damaged)
+
+
+PARTS = {"delays": delays, "losses": losses, "crowd": crowd, "hostile": hostile}
+
+
 def main() -> None:
     """Print a row for each figure, and the machine."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.parse_args()
+    parser.add_argument("--only", choices=PARTS, help="one part alone")
+    options = parser.parse_args()
     with TemporaryDirectory() as folder, variables(XDG_STATE_HOME=folder):
         Path(folder, "empty.xml").write_text(EMPTY)
-        for part in (delays, losses):
-            for row in part(folder):
+        for name, part in PARTS.items():
+            for row in part(folder) if options.only in (None, name) else ():
                 print(json.dumps(row), flush=True)
     print(json.dumps({"machine": machine()}))
 

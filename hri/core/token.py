@@ -24,7 +24,7 @@ from hri.core.ownership import is_of_user
 from hri.core.paths import state_folder
 from hri.core.privacy import folder_for
 from hri.core.reading import read_text
-from hri.core.writing import PRIVATE, mark_of, not_written, write_text
+from hri.core.writing import PRIVATE, mark_of, not_written, write_new_text, write_text
 
 VARIABLE = "HRI_TOKEN"
 """The environment variable that takes precedence over the file."""
@@ -71,6 +71,18 @@ class TokenFile:
         except HriError as error:
             raise HriError(f"{path}: no token can be read from it - {self.remedy}") from error
         return self._checked(text.strip(), str(path))
+
+    def own(self) -> str:
+        """The token, made where there is none: programs that make it at once get the same one.
+
+        Raises HriError as `load` and `new` do.
+        """
+        if (found := self.load()) is not None:
+            return found
+        if not self.path.is_symlink():
+            folder_for(self.path)
+            write_new_text(self.path, secrets.token_urlsafe(_BYTES) + "\n", PRIVATE)
+        return self.load() or self.new()
 
     def new(self) -> str:
         """Make another one; the one before is worth nothing from now on. Raises HriError as
@@ -127,7 +139,7 @@ def new_token() -> str:
 
 def own_token() -> str:
     """The token of this user, created if necessary. Raises HriError as the others do."""
-    return load_token() or new_token()
+    return _ROBOT.own()
 
 
 @dataclass(frozen=True, slots=True)

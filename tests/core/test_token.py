@@ -2,6 +2,7 @@
 
 import os
 import stat
+import threading
 from dataclasses import replace
 from pathlib import Path
 
@@ -48,6 +49,23 @@ def test_it_is_made_once_in_a_file_of_its_user_alone():
     assert stat.S_IMODE(token_file().stat().st_mode) == 0o600
     assert stat.S_IMODE(token_file().parent.stat().st_mode) == 0o700
     assert len(token) >= 43
+
+
+def test_programs_that_make_it_at_once_get_the_same_one():
+    ready = threading.Barrier(8)
+    found = []
+
+    def make():
+        ready.wait()
+        found.append(own_token())
+
+    threads = [threading.Thread(target=make) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert {*found} == {load_token()}
+    assert len(found) == 8
 
 
 def test_a_new_one_makes_the_old_one_worthless():

@@ -14,9 +14,8 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections import deque
 from collections.abc import Callable, Mapping
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -81,11 +80,13 @@ class Member:
         """Until when events are sent."""
         self._put: dict[str, float] = {}
         """When each slot of ours was written by another robot."""
-        self._requests: deque[tuple[Request, zenoh.Query]] = deque(maxlen=MOST_REQUESTS)
+        self._waiting = 0
+        """Requests that were taken, and not begun."""
         self._told: dict[str, float] = {}
         self.complaints = 0
         """Messages that did not count."""
-        self._wake: Callable[[], None] = lambda: None
+        self._begin: Callable[[Request, zenoh.Query], object] = lambda *asked: None
+        """Begins a request in the robot's loop; called by any thread."""
         self._session: zenoh.Session | None = None
         robot.board.remote = self._slot_of
 
@@ -97,16 +98,17 @@ class Member:
             session = await context.blocking(stack.enter_context, opened(self.settings))
             await context.blocking(self._join, session)
             stack.callback(self._leave)
-            followed: set[object] = set()
             stack.callback(context.events.subscribe("*", self._tell).cancel)
-            loop, wanted = trio.lowlevel.current_trio_token(), [trio.Event()]
-            self._wake = lambda: loop.run_sync_soon(wanted[0].set)
+            loop = trio.lowlevel.current_trio_token()
             async with trio.open_nursery() as nursery:
-                nursery.start_soon(self._answer, context, wanted, nursery)
+
+                def begin(request: Request, query: zenoh.Query) -> None:
+                    nursery.start_soon(self._do, context, request, query)
+
+                self._begin = lambda *asked: loop.run_sync_soon(begin, *asked)
                 while True:
-                    for runner in tuple(context.networks.runners.values()):
-                        if runner not in followed:
-                            followed.add(runner)
+                    for runner in context.networks.runners.values():
+                        if self._send_new not in runner.after_tick:
                             runner.after_tick.append(self._send_new)
                     self._tend(self._clock.now())
                     await context.clock.sleep(REPEAT)
@@ -124,20 +126,11 @@ class Member:
 
     def _leave(self) -> None:
         self._session = None
-        self._wake = lambda: None
-
-    async def _answer(
-        self, context: TaskContext, wanted: list[trio.Event], nursery: trio.Nursery
-    ) -> None:
-        """Do what is asked for, one request after the other; those that take long go on aside."""
-        while True:
-            await wanted[0].wait()
-            wanted[0] = trio.Event()
-            while self._requests:
-                request, query = self._requests.popleft()
-                nursery.start_soon(self._do, context, request, query)
+        self._begin = lambda *asked: None
 
     async def _do(self, context: TaskContext, request: Request, query: zenoh.Query) -> None:
+        """Do what is asked for, and answer."""
+        self._waiting -= 1
         key = f"hri/{self.settings.name}/do"
         try:
             if request.verb == "want":
@@ -273,16 +266,19 @@ class Member:
         import zenoh
 
         sealed = self._pen.sealed(key, data, self._clock.now(), made, datatype)
-        session.put(
-            key,
-            data,
-            attachment=sealed,
-            congestion_control=zenoh.CongestionControl.DROP,
-            express=True,
-        )
+        with suppress(zenoh.ZError):  # It was closed meanwhile.
+            session.put(
+                key,
+                data,
+                attachment=sealed,
+                congestion_control=zenoh.CongestionControl.DROP,
+                express=True,
+            )
 
     def _greet(self, robot: str, slots: list[RemoteSlot]) -> None:
         """Meet another robot again, and ask it for values."""
+        import zenoh
+
         session = self._session
         if session is None:
             return
@@ -311,19 +307,24 @@ class Member:
                 )
                 self._ask(session, robot, request)
 
-        session.get(f"hri/{robot}/hello", met, payload=nonce, timeout=PATIENCE)
+        with suppress(zenoh.ZError):  # It was closed meanwhile.
+            session.get(f"hri/{robot}/hello", met, payload=nonce, timeout=PATIENCE)
 
     def _ask(self, session: zenoh.Session, robot: str, request: Request) -> None:
+        import zenoh
+
         key, data = f"hri/{robot}/do", msgspec.msgpack.encode(request)
         now = self._clock.now()
         sealed = self._pen.sealed(key, data, now, now, "request")
-        session.get(key, lambda reply: None, payload=data, attachment=sealed, timeout=PATIENCE)
+        with suppress(zenoh.ZError):
+            session.get(key, lambda reply: None, payload=data, attachment=sealed, timeout=PATIENCE)
 
     # --- in threads of Zenoh ---
 
     def _hello(self, query: zenoh.Query) -> None:
         payload = query.payload
-        nonce = payload.to_string() if payload is not None and len(payload) <= 64 else ""
+        data = payload.to_bytes() if payload is not None and len(payload) <= 64 else b""
+        nonce = data.decode("ascii", "replace")
         if is_nonce(nonce):
             now = self._clock.now()
             hello = self._pen.hello(self.settings.name, nonce, now, self._tickets.new(now))
@@ -341,10 +342,10 @@ class Member:
             request = msgspec.msgpack.decode(data, type=Request)
             with self._guard:
                 self._tickets.use(request.ticket, self._clock.now())
-                if len(self._requests) == MOST_REQUESTS:
+                if self._waiting >= MOST_REQUESTS:
                     raise HriError("too many requests wait - try again")
-                self._requests.append((request, query))
-            self._wake()
+                self._waiting += 1
+            self._begin(request, query)
         except (HriError, ValueError, RecursionError) as error:
             self._complain("request", str(error))
             query.drop()  # type: ignore[no-untyped-call]

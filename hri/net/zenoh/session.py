@@ -76,7 +76,7 @@ def opened(settings: FleetSettings) -> Iterator[zenoh.Session]:
     """A session, until the block ends. Raises HriError where it cannot be had."""
     import zenoh
 
-    zenoh.init_log_from_env_or("error")
+    zenoh.init_log_from_env_or("off")  # RUST_LOG turns it on
     port = _free_port()
     with _announced(port):  # before a look at the others: of two that come in one sees the other
         met = [one for one in _met() if one != port]
