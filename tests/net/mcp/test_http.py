@@ -6,6 +6,7 @@ from contextlib import closing, suppress
 import httpx2 as httpx
 import pytest
 import trio
+import trio.testing
 from mcp import Client
 from mcp.client.streamable_http import streamable_http_client
 
