@@ -32,6 +32,8 @@ COMMANDS = (
     "hri companion --demo --fast --seed 7 --headless --record out",
     f"hri companion --audio {RECORDED}/speech/goforward.flac --camera none --headless",
     "hri companion --config create2 --headless",
+    "hri companion --headless --fleet anna",
+    "hri mcp --config simulated --http 0",
     "hri companion --config typed --headless",
     "hri studio --config simulated --port 0",
     "hri studio {house}/config/networks/follow.xml --port 0",

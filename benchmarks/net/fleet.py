@@ -48,7 +48,7 @@ SECONDS = 10.0
 """Of each measurement."""
 PORTS = 100
 """Values at 100 Hz each: 10,000 a second."""
-KILLS = 10
+KILLS, CUTS = 10, 50
 ROBOTS, PROCESSES = 100, 4
 MESSAGES = 100_000
 SEED = 7
@@ -174,6 +174,37 @@ def _lost(folder: str, number: signal.Signals) -> float:
 
         robot.live_until_over(member.be_in_fleet, watch)
     return found[0]
+
+
+def cuts(folder: str) -> Iterator[Row]:
+    """A robot that freezes and thaws: when its value is gone and back, and how old one is."""
+    robot = Robot(str(Path(folder, "empty.xml")), "simulated")
+    member = Member(robot, FleetSettings("reader"))
+    gone, back, ages = list[float](), list[float](), list[float]()
+    with _other("writer", folder, 1) as (_, pid):
+
+        async def until(context: TaskContext, is_there: bool) -> float:
+            slot, begun = context.board.slot("writer/t0"), time.perf_counter()
+            while ((value := slot.value) is not None) != is_there:
+                await context.clock.sleep(0.002)
+            if value is not None:
+                ages.append(time.perf_counter() - value)
+            return time.perf_counter() - begun
+
+        async def watch(context: TaskContext) -> None:
+            await until(context, is_there=True)
+            for _ in range(CUTS):
+                os.kill(pid, signal.SIGSTOP)
+                gone.append(await until(context, is_there=False))
+                await context.clock.sleep(0.5)
+                os.kill(pid, signal.SIGCONT)
+                back.append(await until(context, is_there=True))
+            robot.finish()
+
+        robot.live_until_over(member.be_in_fleet, watch)
+    yield amount(f"{CUTS} cuts: value gone, longest", 1e3 * max(gone), "ms", at_most(500.0))
+    yield amount(f"{CUTS} cuts: value back, longest", 1e3 * max(back), "ms", at_most(2000.0))
+    yield amount(f"{CUTS} cuts: oldest value that came", 1e3 * max(ages), "ms", at_most(250.0))
 
 
 class Counter(Behavior):
@@ -320,7 +351,7 @@ def _bad(
     return key, payload, bytes(damaged)
 
 
-PARTS = {"delays": delays, "losses": losses, "crowd": crowd, "hostile": hostile}
+PARTS = {"delays": delays, "losses": losses, "cuts": cuts, "crowd": crowd, "hostile": hostile}
 
 
 def main() -> None:

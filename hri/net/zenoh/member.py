@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,7 @@ from hri.behavior.board import DECLARED, BoardSink, BoardSource
 from hri.behavior.ports import ANY, DATATYPES
 from hri.core.errors import HriError
 from hri.core.latest import Latest
-from hri.core.signals import Event
+from hri.core.signals import Event, Frame
 from hri.core.token import is_nonce, new_nonce, own_token
 from hri.net.zenoh import values
 from hri.net.zenoh.clocks import OtherClock, RoundTrip
@@ -67,7 +67,7 @@ class Member:
         token = own_token()
         self._token, self._pen, self._reader = token, Pen(token), Reader(token)
         self._tickets = Tickets()
-        self._guard = threading.RLock()
+        self._guard, self._sending = threading.RLock(), threading.Lock()
         self._remote: dict[str, RemoteSlot] = {}
         self._clocks: dict[str, OtherClock] = {}
         self._asked: dict[str, float] = {}
@@ -76,6 +76,9 @@ class Member:
         """Until when each address is sent, by who reads it."""
         self._sent: dict[tuple[str, str], tuple[float, float]] = {}
         """When each was sent last, and when what was sent was made."""
+        self._under_way = set[tuple[str, str]]()
+        """Pictures that are made ready, by reader and address."""
+        self._send_aside: Callable[[str, str, Frame, float], object] = lambda *picture: None
         self._events_until = 0.0
         """Until when events are sent."""
         self._put: dict[str, float] = {}
@@ -106,6 +109,9 @@ class Member:
                     nursery.start_soon(self._do, context, request, query)
 
                 self._begin = lambda *asked: loop.run_sync_soon(begin, *asked)
+                self._send_aside = lambda *picture: nursery.start_soon(
+                    self._send_picture, context, *picture
+                )
                 while True:
                     for runner in context.networks.runners.values():
                         if self._send_new not in runner.after_tick:
@@ -127,6 +133,7 @@ class Member:
     def _leave(self) -> None:
         self._session = None
         self._begin = lambda *asked: None
+        self._send_aside = lambda *picture: None
 
     async def _do(self, context: TaskContext, request: Request, query: zenoh.Query) -> None:
         """Do what is asked for, and answer."""
@@ -142,8 +149,9 @@ class Member:
         except HriError as error:
             data, kind = msgspec.msgpack.encode(str(error)), "refused"
         now = self._clock.now()
-        sealed = self._pen.sealed(key, data, now, now, kind)
-        query.reply(key, data, attachment=sealed)
+        with self._sending:
+            sealed = self._pen.sealed(key, data, now, now, kind)
+            query.reply(key, data, attachment=sealed)
         query.drop()  # type: ignore[no-untyped-call]
 
     def _want(self, arguments: Mapping[str, Any]) -> None:
@@ -189,8 +197,7 @@ class Member:
                 if (row := self._row(reader, address, now, is_again)) is not None
             ]
             if rows:
-                data = msgspec.msgpack.encode(rows)
-                self._put_out(f"hri/{self.settings.name}/values/{reader}", data, now, "values")
+                self._send_rows(reader, rows, now)
             if max(addresses.values()) < now:
                 del self._wanted[reader]
                 self._sent = {key: one for key, one in self._sent.items() if key[0] != reader}
@@ -202,11 +209,33 @@ class Member:
         if made == before and not (is_again and now - sent >= REPEAT):
             return None
         self._sent[reader, address] = (now, made)
+        if isinstance(value, Frame):
+            self._send_aside(reader, address, value, made)
+            return None
         try:
             return values.row(address, value, made)
         except HriError as error:
             self._complain(address, str(error))
             return None
+
+    def _send_rows(self, reader: str, rows: Sequence[values.Row], now: float) -> None:
+        data = msgspec.msgpack.encode(rows)
+        self._put_out(f"hri/{self.settings.name}/values/{reader}", data, now, "values")
+
+    async def _send_picture(
+        self, context: TaskContext, reader: str, address: str, frame: Frame, made: float
+    ) -> None:
+        """Send a picture, which is made a JPEG beside the loop; one at a time to each reader."""
+        if (reader, address) in self._under_way:
+            return
+        self._under_way.add((reader, address))
+        try:
+            row = await context.blocking(values.row, address, frame, made)
+            self._send_rows(reader, [row], self._clock.now())
+        except HriError as error:
+            self._complain(address, str(error))
+        finally:
+            self._under_way.discard((reader, address))
 
     def _value_of(self, address: str, now: float) -> tuple[Any, float]:
         """The value of a slot, or the last one of a port of a network, and when it was made."""
@@ -265,8 +294,9 @@ class Member:
             return
         import zenoh
 
-        sealed = self._pen.sealed(key, data, self._clock.now(), made, datatype)
-        with suppress(zenoh.ZError):  # It was closed meanwhile.
+        # In the order of their numbers: one that comes before an earlier one would not count.
+        with self._sending, suppress(zenoh.ZError):  # which it raises when it was closed
+            sealed = self._pen.sealed(key, data, self._clock.now(), made, datatype)
             session.put(
                 key,
                 data,
@@ -315,8 +345,8 @@ class Member:
 
         key, data = f"hri/{robot}/do", msgspec.msgpack.encode(request)
         now = self._clock.now()
-        sealed = self._pen.sealed(key, data, now, now, "request")
-        with suppress(zenoh.ZError):
+        with self._sending, suppress(zenoh.ZError):
+            sealed = self._pen.sealed(key, data, now, now, "request")
             session.get(key, lambda reply: None, payload=data, attachment=sealed, timeout=PATIENCE)
 
     # --- in threads of Zenoh ---

@@ -3,12 +3,13 @@
 import threading
 from contextlib import contextmanager
 
+import numpy as np
 import pytest
 
 pytest.importorskip("zenoh", reason="the extra zenoh is not installed")
 
 from hri.core.errors import HriError
-from hri.core.signals import Utterance
+from hri.core.signals import Frame, Utterance
 from hri.net.zenoh.fleet import ALL, fleet
 from hri.net.zenoh.remote_slot import SILENCE
 from hri.net.zenoh.session import FleetSettings
@@ -52,6 +53,28 @@ def test_a_value_is_written_to_another_robot_and_ends_with_its_writer(living):
     assert wish.writer == "berta"
     berta.end()
     assert until(lambda: wish.value is None)
+
+
+def test_a_picture_is_read(living):
+    anna, berta = living("anna"), living("berta")
+    image = np.full((48, 64, 3), 90, np.uint8)
+    anna.board.slot("seen").set(Frame(image, 0.0, 3), 0.0)
+    seen = berta.board.slot("anna/seen")
+    assert until(lambda: seen.value is not None)
+    assert (seen.datatype, seen.value.sequence) == ("image", 3)
+    assert np.abs(seen.value.image.astype(int) - image).max() < 8
+
+
+def test_what_is_computed_elsewhere_comes_first_and_the_own_takes_over(living):
+    links = '<Link from="board.wish" to="double.input"/><Link from="five.value" to="double.input"/>'
+    anna, berta = living("anna", links), living("berta")
+    assert until(lambda: "anna" in anna.robot.networks.runners)
+    double = anna.robot.networks.runners["anna"].network["double"]
+    assert until(lambda: double.input.value == 5.0)
+    berta.board.slot("anna/wish").set(3.0, 0.0)
+    assert until(lambda: double.input.value == 3.0)
+    berta.end()
+    assert until(lambda: double.input.value == 5.0)
 
 
 @pytest.mark.parametrize("value", ["text", Utterance("go", "move")])
