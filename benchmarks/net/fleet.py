@@ -32,10 +32,11 @@ from hri.behavior.network import Network
 from hri.behavior.ports import Output
 from hri.bench.figures import machine
 from hri.bench.table import Row, amount, at_least, at_most
+from hri.bench.ticks import INTERVAL, NAME, SETTLING, Stopwatch, figures
 from hri.bench.workers import variables
 from hri.core.errors import HriError
 from hri.hal.drive import DriveSystem
-from hri.hal.resource import Resource
+from hri.hal.resource import Description, Resource
 from hri.net.zenoh.fleet import Fleet
 from hri.net.zenoh.member import Member
 from hri.net.zenoh.remote_slot import RemoteSlot
@@ -48,6 +49,9 @@ SECONDS = 10.0
 """Of each measurement."""
 PORTS = 100
 """Values at 100 Hz each: 10,000 a second."""
+READ = 10
+"""Slots of the other robot that the companion reads."""
+DEVICES = (Description("screen", "Hri.OffscreenScreen"), Description("voice", "Hri.SilentVoice"))
 KILLS, CUTS = 10, 50
 ROBOTS, PROCESSES = 100, 4
 MESSAGES = 100_000
@@ -351,7 +355,42 @@ def _bad(
     return key, payload, bytes(damaged)
 
 
-PARTS = {"delays": delays, "losses": losses, "cuts": cuts, "crowd": crowd, "hostile": hostile}
+def loop(folder: str) -> Iterator[Row]:
+    """How late ticks of 100 Hz begin beside the companion, without a fleet and in one."""
+    found = {name: _lateness(folder, name == "in a fleet") for name in ("alone", "in a fleet")}
+    for name, late in found.items():
+        yield amount(f"companion {name}: lateness of ticks, p99", late, "ms", None)
+    yield amount("in a fleet / alone", found["in a fleet"] / found["alone"], "", at_most(2.0))
+
+
+def _lateness(folder: str, is_in_fleet: bool) -> float:
+    robot = Robot("companion", "simulated", devices=DEVICES)
+    member = Member(robot, FleetSettings("reader")) if is_in_fleet else None
+    stopwatch, network = Stopwatch("stopwatch"), Network(NAME, INTERVAL)
+    network.add(stopwatch)
+
+    async def watch(context: TaskContext) -> None:
+        for number in range(READ):
+            context.board.slot(f"writer/t{number}")
+        await context.clock.sleep(SETTLING)
+        context.networks.start(network)
+        await context.clock.sleep(SECONDS)
+        robot.finish()
+
+    with _other("writer", folder, READ):
+        jobs = [member.be_in_fleet] if member is not None else []
+        robot.live_until_over(*robot.app.load_tasks(), *jobs, watch)
+    return float(figures(stopwatch)["lateness_ms"]["p99"])
+
+
+PARTS = {
+    "delays": delays,
+    "losses": losses,
+    "cuts": cuts,
+    "crowd": crowd,
+    "hostile": hostile,
+    "loop": loop,
+}
 
 
 def main() -> None:
