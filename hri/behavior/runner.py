@@ -224,6 +224,11 @@ class Runner:
         return bool(self._watches)
 
     @property
+    def last_tick(self) -> float:
+        """When it ticked last, seconds; 0 before the first tick."""
+        return self._last or 0.0
+
+    @property
     def watched(self) -> tuple[OutputPort[Any], ...]:
         """The outputs that someone watches."""
         return tuple(watch.port for watch in self._watches)

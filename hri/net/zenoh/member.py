@@ -148,6 +148,9 @@ class Member:
             data, kind = msgspec.msgpack.encode(result), "done"
         except HriError as error:
             data, kind = msgspec.msgpack.encode(str(error)), "refused"
+        except Exception as error:  # a mistake of ours, or of a task, must not end the robot
+            log.error("%s failed: %s", request.verb, error, exc_info=error)
+            data, kind = msgspec.msgpack.encode(f"{request.verb} failed - see its log"), "refused"
         now = self._clock.now()
         with self._sending:
             sealed = self._pen.sealed(key, data, now, now, kind)
@@ -159,9 +162,11 @@ class Member:
         until = self._clock.now() + LEASE
         if arguments.get("events"):
             self._events_until = until
-        reader, addresses = str(arguments.get("reader", "")), arguments.get("addresses", ())
+        reader, addresses = str(arguments.get("reader", "")), arguments.get("addresses", [])
         if not addresses:
             return
+        if not isinstance(addresses, list):
+            raise HriError("addresses is not a list - name slots and ports")
         others = sum(len(one) for name, one in self._wanted.items() if name != reader)
         if not is_name(reader) or others + len(addresses) > MOST_WANTED:
             raise HriError(f"at most {MOST_WANTED} values are sent - ask for fewer")
@@ -204,7 +209,7 @@ class Member:
 
     def _row(self, reader: str, address: str, now: float, is_again: bool) -> values.Row | None:
         """A value as it is sent; None where it was sent already, or cannot travel."""
-        value, made = self._value_of(address, now)
+        value, made = self._value_of(address)
         sent, before = self._sent.get((reader, address), (-1.0, -1.0))
         if made == before and not (is_again and now - sent >= REPEAT):
             return None
@@ -237,7 +242,7 @@ class Member:
         finally:
             self._under_way.discard((reader, address))
 
-    def _value_of(self, address: str, now: float) -> tuple[Any, float]:
+    def _value_of(self, address: str) -> tuple[Any, float]:
         """The value of a slot, or the last one of a port of a network, and when it was made."""
         network, _, rest = address.partition(".")
         behavior, _, output = rest.partition(".")
@@ -245,7 +250,7 @@ class Member:
         if runner is not None and output:
             for one in runner.network.behaviors:
                 if one.id == behavior and output in one.outputs:
-                    return one.output_port(output).value, now
+                    return one.output_port(output).value, runner.last_tick
         if address in self._slots_in_use():
             value, made = self.robot.board.slot(address).get()
             return value, made if value is not None else -made
@@ -325,8 +330,11 @@ class Member:
                 if hello.name != robot:
                     return
                 with self._guard:
+                    is_another = self._reader.epochs.get(robot) != hello.epoch
                     self._reader.meet(hello, nonce)
-                    clock = self._clocks.setdefault(robot, OtherClock())
+                    if is_another:  # It began again, and so did its clock.
+                        self._clocks[robot] = OtherClock()
+                    clock = self._clocks[robot]
                 clock.take(RoundTrip(asked, answered, hello.clock))
             except HriError as error:
                 self._complain(robot, str(error))

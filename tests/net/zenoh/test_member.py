@@ -38,6 +38,17 @@ def test_a_slot_of_another_robot_is_read_and_empties_when_it_ends(living):
     assert until(lambda: level.value is None)
 
 
+def test_a_robot_that_begins_again_is_read_again(living):
+    anna, berta = living("anna"), living("berta")
+    level = berta.board.slot("anna/level")
+    assert until(lambda: level.value == 5.0)
+    anna.end()
+    assert until(lambda: level.value is None)
+    living("anna")
+    assert until(lambda: level.value == 5.0)
+    assert 0.0 <= level.age < 1.0
+
+
 def test_a_port_of_a_network_of_another_robot_is_read(living):
     living("anna")
     port = living("berta").board.slot("anna/anna.five.value")
@@ -99,9 +110,14 @@ def test_robots_are_listed_and_asked(living):
         found.ask("anna", "stop", {})
         with pytest.raises(HriError, match='no request "dance"'):
             found.ask("anna", "dance", {})
+        for wrong in ({"reader": "x", "addresses": 5}, {"reader": 5, "addresses": ["x"]}):
+            with pytest.raises(HriError, match=r"addresses is not a list|at most"):
+                found.ask("anna", "want", wrong)
+        with pytest.raises(HriError, match="list of at most"):
+            found.ask("anna", "run", {"task": "x", "arguments": 5})
         with pytest.raises(HriError, match=r'no robot "ana" .* "anna"'):
             found.chosen(["ana"])
-    assert [one.properties["verb"] for one in events] == ["stop"]
+    assert [one.properties["verb"] for one in events] == ["stop", "run"]
     assert events[0].origin == "fleet"
 
 
