@@ -1,5 +1,7 @@
 """Skills plug into an app by being there; a broken one is off, and the app goes on."""
 
+import sys
+
 import pytest
 
 from hri.core.errors import AuthoringError
@@ -46,6 +48,21 @@ def test_skills_come_from_the_users_folder_and_from_hri_path(app, tmp_path, monk
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
     monkeypatch.setenv("HRI_PATH", str(tmp_path / "path"))
     assert names(app) == ["d", "p"]
+
+
+def test_skills_come_from_installed_packages_that_are_not_imported(app, tmp_path, monkeypatch):
+    site = tmp_path / "site"
+    folder = skill(site / "spoons", "spoons")
+    package = folder.rename(site / "spoons_skill")
+    (package / "__init__.py").write_text("raise RuntimeError\n")
+    about = site / "spoons-1.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text("Name: spoons\nVersion: 1\n")
+    lines = "spoons = spoons_skill\nmissing = no_such_package\nodd = .\n"
+    (about / "entry_points.txt").write_text(f"[hri.skills]\n{lines}")
+    monkeypatch.syspath_prepend(str(site))
+    assert names(app) == ["spoons_skill"]
+    assert "spoons_skill" not in sys.modules
 
 
 def test_an_app_without_such_a_folder_takes_those_it_names(tmp_path):
