@@ -8,7 +8,10 @@ from hri.core.errors import NotAvailable
 
 SECONDS = 12
 QUICK = ("hri say", "hri grammar parse", "hri object learn", "hri models")
-SLOW = ("hri companion --headless", "hri doctor", "hri face render", "hri drive replay")
+SLOW = (
+    *("hri companion --headless", "hri companion --headless --fleet", "hri mcp", "hri doctor"),
+    *("hri face render", "hri drive replay"),
+)
 
 
 @pytest.fixture(autouse=True)

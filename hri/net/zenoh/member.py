@@ -53,7 +53,7 @@ MOST_REMOTE = 1000
 TELL_EVERY = 10.0
 """Seconds between two lines in the log about messages of one robot that do not count."""
 
-log = logging.getLogger("hri.fleet")
+log = logging.getLogger("hri.net")
 
 
 class Member:
