@@ -56,7 +56,21 @@ KILLS, CUTS = 10, 50
 ROBOTS, PROCESSES = 100, 4
 MESSAGES = 100_000
 SEED = 7
-EMPTY = '<BehaviorNetwork name="empty"/>'
+EMPTY = '<BehaviorNetwork name="empty" invocation_interval="1"/>'
+ROOM = "[robot]\nstart = [0, 0]\n"
+BARE = """
+<Resources>
+  <Devices>
+    <DeviceBus id="world" type="Hri.SimulatedWorld">
+      <Parameter name="file" value="room.toml"/>
+      <Device id="drive" type="Hri.SimulatedDrive"/>
+      <Device id="battery" type="Hri.SimulatedBattery"/>
+      <Device id="range" type="Hri.SimulatedRangeSensor"/>
+    </DeviceBus>
+  </Devices>
+</Resources>
+"""
+"""A base and sensors in a room without people, whose voices would cost more than the fleet."""
 
 
 class Watch(Behavior):
@@ -230,12 +244,12 @@ def _living_crowd(names: Sequence[str], folder: str, pipe: Pipe) -> None:
     ended = threading.Event()
 
     def live(name: str) -> None:
-        robot = Robot(str(Path(folder, "empty.xml")), "simulated")
+        robot = Robot(str(Path(folder, "empty.xml")), str(Path(folder, "bare.xml")))
         member = Member(robot, FleetSettings(name))
 
         async def begin(context: TaskContext) -> None:
             context.resources.obtain("drive", DriveSystem)
-            for sensor in ("range_front", "battery"):
+            for sensor in ("range", "battery"):
                 context.resources.obtain(sensor, Resource)
             network = Network("clock", interval=0.1)
             network.add(Counter("counter"))
@@ -400,7 +414,8 @@ def main() -> None:
     parser.add_argument("--only", choices=PARTS, help="one part alone")
     options = parser.parse_args()
     with TemporaryDirectory() as folder, variables(XDG_STATE_HOME=folder):
-        Path(folder, "empty.xml").write_text(EMPTY)
+        for name, text in {"empty.xml": EMPTY, "bare.xml": BARE, "room.toml": ROOM}.items():
+            Path(folder, name).write_text(text)
         for name, part in PARTS.items():
             for row in part(folder) if options.only in (None, name) else ():
                 print(json.dumps(row), flush=True)

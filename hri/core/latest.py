@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, Generic, TypeVar
 
 T = TypeVar("T")
@@ -61,6 +61,6 @@ class Board:
             self._slots[name] = Latest() if make is None else make(name)
         return self._slots[name]
 
-    def __iter__(self) -> Iterator[str]:
-        """The names of those that were used."""
-        return iter(tuple(self._slots))
+    def __contains__(self, name: str) -> bool:
+        """Whether a slot of that name was used."""
+        return name in self._slots

@@ -37,6 +37,7 @@ from hri.drive.behaviors import CommandGate
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
+from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.robot.app import GRAMMARS, App, load_app
@@ -261,6 +262,20 @@ class Robot(BlockingVerbs):
             for behavior in self.context.behaviors.values():
                 if isinstance(behavior, CommandGate):
                     behavior.halt()
+
+    def stop_until_released(self, because: str) -> None:
+        """Stop the base at once, latched, and what drives it; `because` is the reason given."""
+        try:
+            self.tasks.take_away("drive")
+            self.events.raise_event("drive.halt", because=because)
+        finally:  # whoever follows the event may fail, the base must not
+            for base in self.resources.opened(EmergencyStop):
+                base.stop_latched(because)
+
+    def release(self) -> None:
+        """Let the base move again."""
+        for base in self.resources.opened(EmergencyStop):
+            base.unlatch()
 
     def finish(self, *, why: str = "finished") -> None:
         """End `live`; a second call does nothing. `why` is for the record of a recording."""

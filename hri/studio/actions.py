@@ -14,7 +14,6 @@ from hri.core.errors import HriError
 from hri.core.origin import STUDIO, caused_by
 from hri.core.signals import Rejection
 from hri.hal.camera import Camera
-from hri.hal.emergency_stop import EmergencyStop
 from hri.robot import Robot
 from hri.simulation.room import Wall
 from hri.simulation.visitor import Visitor
@@ -95,20 +94,6 @@ def _visitor_go(asked: Asked, x: float, y: float, who: str = "") -> None:
     asked.visitor(who).go(x, y)
 
 
-def _stop(asked: Asked, press: str = "") -> None:
-    try:
-        asked.robot.tasks.take_away("drive")
-        asked.context.events.raise_event("drive.halt", because=BECAUSE)
-    finally:  # whoever follows the event may fail, the base must not
-        for base in asked.context.resources.opened(EmergencyStop):
-            base.stop_latched(BECAUSE)
-
-
-def _release(asked: Asked) -> None:
-    for base in asked.context.resources.opened(EmergencyStop):
-        base.unlatch()
-
-
 def _say(asked: Asked, text: str) -> None:
     asked.context.behavior(Voice).say(text)
 
@@ -163,8 +148,8 @@ def _watch(asked: Asked, on: bool) -> None:
 
 
 ACTIONS: Mapping[str, Callable[..., object]] = {
-    STOP: _stop,
-    "release": _release,
+    STOP: lambda asked, press="": asked.robot.stop_until_released(BECAUSE),
+    "release": lambda asked: asked.robot.release(),
     "hear": _hear,
     "say": _say,
     "hush": _hush,

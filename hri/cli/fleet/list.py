@@ -41,8 +41,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _state(found: Fleet, name: str) -> dict[str, Any]:
     try:
-        met, _ = found.meet(name)
-        return {**found.ask(name, "state", {}), "answers_in": 2 * met.clock.uncertainty}
+        _, seconds = found.meet(name)
+        return {**found.ask(name, "state", {}), "answers_in": seconds}
     except HriError as error:
         return {"error": str(error)}
 

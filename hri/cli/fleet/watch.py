@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     with fleet(settings_of(options)) as found:
-        for event in found.events(found.chosen(options.robot), options.seconds):
+        for event in found.events(options.robot, options.seconds):
             if matches(options.event, event["event"]):
                 print(json.dumps(event), flush=True)
     return 0

@@ -36,6 +36,7 @@ LINES = {
     "camera.lost": "camera    lost",
     "camera.found": "camera    back",
     "vision.failed": "eyes      {reason}",
+    "fleet.asked": "asked     {verb}",
     "mcp.called": "asked     {tool}",
     "mcp.refused": "refused   {tool}",
     "mcp.proposed": "drafted   {draft}",

@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 
 from hri.cli.skill import check, list, new, test, turning
+from hri.cli.terminal.subcommands import Commands, add_commands, run_command as run
 
-COMMANDS = {
+COMMANDS: Commands = {
     "list": (list, "list the skills of an app, and which are on"),
     "new": (new, "create a skill that is plugged in at once"),
     "check": (check, "report mistakes, and sentences that other commands have or sound like"),
@@ -14,18 +15,11 @@ COMMANDS = {
     "on": (turning, "turn a skill on again"),
     "off": (turning, "turn a skill off"),
 }
-"""Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 EPILOG = "The page docs/skills.md makes one, step by step."
+
+__all__ = ["add_arguments", "run"]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = EPILOG
-    commands = parser.add_subparsers(dest="skill_command", metavar="COMMAND", required=True)
-    for name, (module, about) in COMMANDS.items():
-        module.add_arguments(commands.add_parser(name, help=about, description=about))
-
-
-def run(options: argparse.Namespace) -> int:
-    module, _ = COMMANDS[options.skill_command]
-    status: int = module.run(options)
-    return status
+    add_commands(parser, COMMANDS)

@@ -16,8 +16,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     (name,) = chosen(plugged_in(options.app), [options.name])
-    is_on = options.skill_command == "on"
+    is_on = options.verb == "on"
     turn(name, on=is_on)
     undo = "" if is_on else f"; `hri skill on {name}` undoes that"
-    report(f"{name} is {options.skill_command} from the next start of the robot{undo}")
+    report(f"{name} is {options.verb} from the next start of the robot{undo}")
     return 0

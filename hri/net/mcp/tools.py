@@ -175,18 +175,8 @@ async def _check_authored(asked: Asked, name: str, text: str) -> Any:
 
 
 async def _stop(asked: Asked) -> Any:
-    stop(asked.robot)
+    asked.robot.stop_until_released(BECAUSE)
     return "stopped; a person has to let it move again"
-
-
-def stop(robot: Robot) -> None:
-    """Stop the base at once, until a person lets it move again."""
-    try:
-        robot.tasks.take_away("drive")
-        robot.events.raise_event("drive.halt", because=BECAUSE)
-    finally:  # whoever follows the event may fail, the base must not
-        for base in robot.resources.opened(EmergencyStop):
-            base.stop_latched(BECAUSE)
 
 
 # --- expressing ---

@@ -7,7 +7,6 @@ was read between question and answer, so half of the shortest round trip bounds 
 from __future__ import annotations
 
 import math
-from collections import deque
 from dataclasses import dataclass
 
 KEPT = 8
@@ -34,21 +33,23 @@ class OtherClock:
     """Compares the clock of someone else with ours."""
 
     def __init__(self) -> None:
-        self._trips: deque[RoundTrip] = deque(maxlen=KEPT)
+        self._trips: tuple[RoundTrip, ...] = ()
+        # Replaced as a whole: another thread reads it meanwhile.
+        self._best: RoundTrip | None = None
 
     def take(self, trip: RoundTrip) -> None:
         """Learn from a round trip; one that ends before it begins is left out."""
         if trip.length >= 0 and math.isfinite(trip.theirs):
-            self._trips.append(trip)
+            self._trips = (*self._trips, trip)[-KEPT:]
+            self._best = min(self._trips, key=lambda one: one.length)
 
     @property
     def uncertainty(self) -> float:
         """Seconds that `ours` may be wrong by; infinite before the first round trip."""
-        return min((trip.length / 2 for trip in self._trips), default=math.inf)
+        return math.inf if self._best is None else self._best.length / 2
 
     def ours(self, theirs: float) -> float:
         """What our clock showed at a time of theirs. Raises ValueError before a round trip."""
-        if not self._trips:
+        if (best := self._best) is None:
             raise ValueError("no round trip yet")
-        best = min(self._trips, key=lambda trip: trip.length)
         return theirs - best.theirs + (best.asked + best.answered) / 2

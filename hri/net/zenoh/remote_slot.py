@@ -67,8 +67,9 @@ class RemoteSlot(Latest[Any]):
         self._send(self)
 
     def clear(self) -> None:
+        had_one = self.value is not None
         super().clear()
-        if self.is_written:
+        if self.is_written and had_one:
             self._send(self)
 
     def arrive(self, value: Any, came: Arrival) -> None:

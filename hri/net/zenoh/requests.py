@@ -70,18 +70,11 @@ def _state(asked: Asked, arguments: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _stop(asked: Asked, arguments: Mapping[str, Any]) -> None:
-    """Stop the base until it is released, and what drives it."""
-    try:
-        asked.robot.tasks.take_away("drive")
-        asked.context.events.raise_event("drive.halt", because=BECAUSE)
-    finally:
-        for base in asked.context.resources.opened(EmergencyStop):
-            base.stop_latched(BECAUSE)
+    asked.robot.stop_until_released(BECAUSE)
 
 
 def _release(asked: Asked, arguments: Mapping[str, Any]) -> None:
-    for base in asked.context.resources.opened(EmergencyStop):
-        base.unlatch()
+    asked.robot.release()
 
 
 def _say(asked: Asked, arguments: Mapping[str, Any]) -> None:
@@ -97,8 +90,10 @@ def _run(asked: Asked, arguments: Mapping[str, Any]) -> None:
     given = arguments.get("arguments", ())
     if not isinstance(given, list | tuple) or len(given) > MOST_ARGUMENTS:
         raise HriError(f"a task takes a list of at most {MOST_ARGUMENTS} arguments")
-    job = asked.robot.app.task(str(arguments.get("task", "")))
-    asked.robot.tasks.install(job, *given)
+    app, name = asked.robot.app, str(arguments.get("task", ""))
+    if "." not in name and name not in app.task_names():  # such as what tasks.py only imports
+        raise HriError(f'no task "{name}" - {did_you_mean(name, app.task_names())}')
+    asked.robot.tasks.install(app.task(name), *given)
 
 
 def _text(arguments: Mapping[str, Any]) -> str:

@@ -21,6 +21,8 @@ from hri.core.token import Challenge, is_proof, new_nonce, proof
 
 MOST_STREAMS = 4096
 """Keys of which the last number is remembered; the oldest is forgotten with its epoch's trust."""
+REQUEST = "request"
+"""What stands for the datatype of a request."""
 TICKET_SECONDS = 10.0
 LONGEST_ENVELOPE = 600
 """Bytes."""
@@ -112,7 +114,7 @@ class Reader:
         found = envelope_of(envelope)
         if self._epochs.get(name) != found.epoch:
             return None
-        require_seal(self._token, key, value, found)
+        _require_seal(self._token, key, value, found)
         self._count(key, found)
         return found
 
@@ -176,7 +178,15 @@ def hello_of(data: bytes) -> Hello:
         raise HriError(f"this answer is damaged: {error}") from error
 
 
-def require_seal(token: str, key: str, value: bytes, found: Envelope) -> None:
+def opened_request(token: str, key: str, value: bytes, envelope: bytes) -> None:
+    """Raises HriError for what is not a request of who knows the token, such as an answer."""
+    found = envelope_of(envelope)
+    _require_seal(token, key, value, found)
+    if found.datatype != REQUEST:
+        raise HriError(f"{key}: a {found.datatype!r:.40} is not a request")
+
+
+def _require_seal(token: str, key: str, value: bytes, found: Envelope) -> None:
     """Raises HriError for a message that was not written by who knows the token."""
     if not hmac.compare_digest(found.mac, _mac(token, key, value, found)):
         raise HriError(f"{key}: the seal is broken - give both robots the same HRI_TOKEN")

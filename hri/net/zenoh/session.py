@@ -13,7 +13,7 @@ import re
 import socket
 import threading
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -52,6 +52,11 @@ class FleetSettings:
     file: Path | None = None
     """Zenoh's own configuration, JSON5."""
 
+    @property
+    def listens_itself(self) -> bool:
+        """Whether the place to listen is chosen here, and not by a file that may reach others."""
+        return self.file is None or not self.allows_remote
+
     def __post_init__(self) -> None:
         """Raises HriError for a name that cannot be one, or what needs `allows_remote`."""
         if self.name and not is_name(self.name):
@@ -77,8 +82,9 @@ def opened(settings: FleetSettings) -> Iterator[zenoh.Session]:
     import zenoh
 
     zenoh.init_log_from_env_or("off")  # RUST_LOG turns it on
-    port = _free_port()
-    with _announced(port):  # before a look at the others: of two that come in one sees the other
+    port = _free_port() if settings.listens_itself else 0
+    # Announced before a look at the others: of two that come in at once, one sees the other.
+    with _announced(port) if port else nullcontext():
         met = [one for one in _met() if one != port]
         configuration = _configuration(settings, port, met)
         try:
@@ -104,17 +110,23 @@ def _configuration(settings: FleetSettings, port: int, met: Sequence[int]) -> ze
             config = zenoh.Config()
             config.insert_json5("mode", '"peer"')
         host = "0.0.0.0" if settings.allows_remote else LOOPBACK
+        known = [] if settings.listens_itself else json.loads(config.get_json("connect/endpoints"))
+        if not isinstance(known, list):
+            raise HriError(f"{settings.file}: connect/endpoints is not a list - write one")
+        here = [f"tcp/{LOOPBACK}:{one}" for one in met]
         own = {
-            "listen/endpoints": [f"tcp/{host}:{port}"],
-            "connect/endpoints": [*(f"tcp/{LOOPBACK}:{one}" for one in met), *settings.connect],
+            "connect/endpoints": [*known, *here, *settings.connect],
             "connect/exit_on_failure": False,
             "connect/timeout_ms": 1000,
-            "scouting/multicast/enabled": settings.allows_remote,
-            "adminspace/enabled": False,
         }
+        if settings.listens_itself:
+            own |= {
+                "listen/endpoints": [f"tcp/{host}:{port}"],
+                "scouting/multicast/enabled": settings.allows_remote,
+                "adminspace/enabled": False,
+            }
         for key, value in own.items():
-            if settings.file is None or not settings.allows_remote:
-                config.insert_json5(key, json.dumps(value))
+            config.insert_json5(key, json.dumps(value))
     except zenoh.ZError as error:
         what = f"{settings.file}: {error}" if settings.file else str(error)
         raise HriError(f"{what} - see zenoh.io, DEFAULT_CONFIG.json5") from error

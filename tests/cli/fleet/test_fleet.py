@@ -11,7 +11,6 @@ from hri.cli.main import main
 from hri.core.token import VARIABLE
 from hri.net.zenoh.fleet import fleet
 from hri.net.zenoh.session import FleetSettings
-from tests.net.zenoh.conftest import living  # noqa: F401
 from tests.net.zenoh.robots import until
 
 
@@ -23,7 +22,7 @@ def own_state(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def anna(living):  # noqa: F811
+def anna(living):
     """A robot that is in the fleet."""
     found = living("anna")
     with fleet(FleetSettings()) as robots:

@@ -1,7 +1,7 @@
 """Robots of a fleet, for real, on the loopback network."""
 
 import threading
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import numpy as np
 import pytest
@@ -115,9 +115,11 @@ def test_robots_are_listed_and_asked(living):
                 found.ask("anna", "want", wrong)
         with pytest.raises(HriError, match="list of at most"):
             found.ask("anna", "run", {"task": "x", "arguments": 5})
+        with pytest.raises(HriError, match='no task "run_all"'):
+            found.ask("anna", "run", {"task": "run_all"})
         with pytest.raises(HriError, match=r'no robot "ana" .* "anna"'):
             found.chosen(["ana"])
-    assert [one.properties["verb"] for one in events] == ["stop", "run"]
+    assert [one.properties["verb"] for one in events] == ["stop", "run", "run"]
     assert events[0].origin == "fleet"
 
 
@@ -156,6 +158,33 @@ def test_what_happens_is_watched(living):
         over.set()
         asking.join(WITHIN)
     assert (event["robot"], event["verb"], event["origin"]) == ("anna", "release", "fleet")
+
+
+def test_who_comes_later_is_watched_and_who_goes_ends_nothing(living):
+    with fleet(FleetSettings()) as found:
+        watched = found.events([ALL], WITHIN)
+        first, second = living("anna"), None
+        robots = set()
+        over = threading.Event()
+
+        def ask_until_over():
+            while not over.wait(0.05):
+                for name in found.names():
+                    with suppress(HriError):
+                        found.ask(name, "release", {})
+
+        asking = threading.Thread(target=ask_until_over)
+        asking.start()
+        for event in watched:
+            robots.add(event["robot"])
+            if second is None:
+                first.end()
+                second = living("berta")
+            if robots == {"anna", "berta"}:
+                break
+        over.set()
+        asking.join(WITHIN)
+    assert robots == {"anna", "berta"}
 
 
 @pytest.mark.parametrize("name", ["Anna", "an na", "a/b", "*", "", "x" * 40])
