@@ -4,7 +4,7 @@
 The orders and meetings are those of `docs/forms.md`, the timers, alarms and reminders the skills of
 the companion. Each line comes when the robot has said all it says; null is silence until it speaks
 again. Of a time that is expected in words the clock is compared, "7:15 AM"; "in 20 minutes" is for
-who reads the transcript.
+who reads the transcript. A spoken line that the robot did not get is said again, twice at most.
 """
 
 from __future__ import annotations
@@ -41,10 +41,14 @@ FOLDER = Path(__file__).parent / "forms"
 PAGE = "docs/forms.md"
 BLIND = (Description("screen", "Hri.BlankScreen"), Description("camera", "Hri.BlankCamera"))
 HELLO = "hello robot"
+HEARD = "speech.heard"
+HEARING = (HEARD, "speech.rejected")
 CALM = 2.0
 """Seconds of silence after which a person says the next line."""
 PATIENCE = 12.0
 """Seconds after which nobody waits for its next words."""
+REPEATS = 2
+"""Times that a person says again what the robot did not get."""
 LONGEST = 180.0
 """Seconds after which a dialogue hangs."""
 CLOCK = re.compile(r"\d+:\d\d [AP]M")
@@ -97,20 +101,36 @@ async def _talk(context: TaskContext, found: Played, robot: Robot, person: str) 
     listener, voice = context.behavior(Listener), context.behavior(Voice)
     if person:  # It cannot see who speaks, and whether that is to it.
         await _say(context, VOICES[person](HELLO))
+    await _until_calm(context, voice)
     for line in [*found.says, None]:
-        await _until_calm(context, voice)
+        found.transcript.append("(silence)" if line is None else f"you: {line}")
         if line is None:
-            found.transcript.append("(silence)")
             await _until_it_speaks(context, found.transcript)
+        elif person:
+            await _speak(context, VOICES[person](line), voice, found.transcript)
             continue
-        found.transcript.append(f"you: {line}")
-        if person:
-            await _say(context, VOICES[person](line))
         else:
             listener.type_line(line)
-        await context.clock.sleep(0.5)
-    await _until_calm(context, voice)
+            await context.clock.sleep(0.5)
+        await _until_calm(context, voice)
     robot.finish()
+
+
+async def _speak(
+    context: TaskContext, samples: Samples, voice: Voice, transcript: list[str]
+) -> None:
+    """Say a line, and again while the robot does not get it; until it is calm."""
+    events: list[Event] = []
+    following = [context.events.subscribe(name, events.append) for name in HEARING]
+    for _ in range(1 + REPEATS):
+        events.clear()
+        await _say(context, samples)
+        await _until_calm(context, voice)
+        transcript += [f"({one.name} {one.properties['text']})" for one in events]
+        if any(one.name == HEARD for one in events):
+            break
+    for one in following:
+        one.cancel()
 
 
 async def _say(context: TaskContext, samples: Samples) -> None:

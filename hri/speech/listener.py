@@ -296,7 +296,8 @@ class Listener(Behavior):
     @property
     def is_idle(self) -> bool:
         """True when nothing that was heard is still on its way to be understood."""
-        return not (self._waiting or self._worker.is_busy or self._recognizer.is_hearing)
+        is_busy = self._worker.is_busy or self._early_worker.is_busy
+        return not (self._waiting or is_busy or self._recognizer.is_hearing)
 
     def compute(self, now: float, dt: float) -> None:
         self._listen(now)

@@ -163,6 +163,18 @@ def test_it_is_idle_when_all_is_understood():
     assert stage.names() == ["speech.heard", "speech.heard"]
 
 
+def test_it_is_not_idle_before_it_tells_what_it_understood_in_a_pause():
+    stage = Stage(Listener())
+    stage.ears.script[1.0], stage.ears.pause = ("hello robot", 0.9), 0.4
+
+    stage.run(0.6)
+    while "speech.heard" not in stage.names():
+        assert not stage.behavior.is_idle
+        stage.run(TICK)
+
+    assert stage.behavior.is_idle
+
+
 def test_a_wrong_grammar_is_refused_before_anything_starts(write):
     with pytest.raises(AuthoringError, match="no rule <colr>"):
         Stage(Listener(grammar=str(write("public <a> = <colr>;\n<color> = red;"))))
