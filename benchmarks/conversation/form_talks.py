@@ -4,7 +4,8 @@
 The orders and meetings are those of `docs/forms.md`, the timers, alarms and reminders the skills of
 the companion. Each line comes when the robot has said all it says; null is silence until it speaks
 again. Of a time that is expected in words the clock is compared, "7:15 AM"; "in 20 minutes" is for
-who reads the transcript. A spoken line that the robot did not get is said again, twice at most.
+who reads the transcript. Who speaks and is not understood says the line again, or answers in plain
+words once the robot asks; says no to what is wrong; and answers what is asked beyond the lines.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from hri.bench.speech.flite_voices import RATE
 from hri.bench.speech.listening import ONE_CORE
 from hri.bench.workers import variables, worker_pool
 from hri.conversation.alarm_keeper import AlarmKeeper
+from hri.conversation.filling import ASKED, CONFIRMED
 from hri.core.clock import FakeClock
 from hri.core.paths import house
 from hri.core.signals import Event, Samples
@@ -33,6 +35,7 @@ from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
 from hri.testing import live_for
 from hri.testing.dialogues import TYPED, write_shown_files
@@ -49,8 +52,19 @@ PATIENCE = 12.0
 """Seconds after which nobody waits for its next words."""
 REPEATS = 2
 """Times that a person says again what the robot did not get."""
+MOST_PLAIN = 6
+"""Answers in plain words, after which a person gives up."""
 LONGEST = 180.0
 """Seconds after which a dialogue hangs."""
+SHORTEST = 30
+"""Seconds: numbers from there on are durations, those below are hours."""
+AHEAD = " from now"
+CHANGED = "changed"
+"""What is asked for after a no."""
+AND = " and "
+PLAIN = "plain"
+READ_BACK = {PLAIN: "nothing"}
+"""What the robot says for it, where that is another word."""
 CLOCK = re.compile(r"\d+:\d\d [AP]M")
 NOTED = re.compile(r"(Monday|Tuesday|Wednesday) at (\d+)\?")
 
@@ -66,6 +80,8 @@ class Played:
     transcript: list[str] = field(default_factory=list)
     done: Mapping[str, Any] | None = None
     hangs: bool = False
+    plain: int = 0
+    """Answers that are none of those lines."""
 
     @property
     def is_as_expected(self) -> bool:
@@ -98,39 +114,100 @@ async def _talk(context: TaskContext, found: Played, robot: Robot, person: str) 
         found.transcript.append(f"robot: {event.properties['text']}")
 
     context.events.subscribe("speech.said", note)
-    listener, voice = context.behavior(Listener), context.behavior(Voice)
-    if person:  # It cannot see who speaks, and whether that is to it.
-        await _say(context, VOICES[person](HELLO))
+    voice = context.behavior(Voice)
+    if person:  # It cannot see who speaks, and whether that is to it: someone greets it first.
+        await _say(context, VOICES[NEW[0]](HELLO))
     await _until_calm(context, voice)
-    for line in [*found.says, None]:
+    for number, line in enumerate([*found.says, None], 1):
+        is_last = number == len(found.says)
+        if person and is_last and _asked(context) and not _may_agree(context, found):
+            continue  # Nobody agrees to what is wrong.
         found.transcript.append("(silence)" if line is None else f"you: {line}")
         if line is None:
             await _until_it_speaks(context, found.transcript)
         elif person:
-            await _speak(context, VOICES[person](line), voice, found.transcript)
-            continue
+            await _speak(context, found, person, line)
         else:
-            listener.type_line(line)
+            context.behavior(Listener).type_line(line)
             await context.clock.sleep(0.5)
+        await _until_calm(context, voice)
+    while person and _asked(context) and found.plain < MOST_PLAIN:
+        await _speak_plainly(context, found, person)
         await _until_calm(context, voice)
     robot.finish()
 
 
-async def _speak(
-    context: TaskContext, samples: Samples, voice: Voice, transcript: list[str]
-) -> None:
-    """Say a line, and again while the robot does not get it; until it is calm."""
+def _asked(context: TaskContext) -> str:
+    """The slot that is asked for; `CONFIRMED`, `CHANGED`, or empty for nothing."""
+    tag = context.board.slot(ASKED).value
+    return str(tag or "") or (CHANGED if context.board.slot(QUESTION).value else "")
+
+
+def _may_agree(context: TaskContext, found: Played) -> bool:
+    """Whether a last line answers: in a form that asks whether all is right only if it is."""
+    if found.expects is None or found.form not in ("pizza", "meeting"):
+        return True
+    return _asked(context) == CONFIRMED and _is_right(found)
+
+
+def _is_right(found: Played) -> bool:
+    """Whether the robot asks for a yes to what is expected."""
+    question = next(line for line in reversed(found.transcript) if line.startswith("robot"))
+    *_, end = re.split(" pizza with | at ", question.rstrip("?"))
+    first, last = [_spoken(value) for value in (found.expects or {}).values()]
+    return (
+        first in question
+        and end.startswith(READ_BACK.get(last, last))
+        and end.count(AND) == last.count(AND)
+    )
+
+
+def _plain(context: TaskContext, found: Played) -> str:
+    """What a person answers in plain words."""
+    asked = _asked(context)
+    if found.expects is None:
+        return "never mind"
+    if asked == CHANGED:
+        return " ".join(_spoken(value) for value in found.expects.values())
+    if asked == CONFIRMED:
+        return "yes" if _is_right(found) else "no"
+    return _spoken(found.expects[asked])
+
+
+async def _speak_plainly(context: TaskContext, found: Played, person: str) -> None:
+    found.plain += 1
+    line = _plain(context, found)
+    found.transcript.append(f"you, plainly: {line}")
+    await _say(context, VOICES[person](line))
+
+
+async def _speak(context: TaskContext, found: Played, person: str, line: str) -> None:
+    """Say a line; where the robot does not get it again, or in plain words once it has asked."""
     events: list[Event] = []
     following = [context.events.subscribe(name, events.append) for name in HEARING]
-    for _ in range(1 + REPEATS):
+    voice = context.behavior(Voice)
+    for attempt in range(1 + REPEATS):
         events.clear()
-        await _say(context, samples)
+        if attempt and _asked(context):
+            await _speak_plainly(context, found, person)
+        else:
+            await _say(context, VOICES[person](line))
         await _until_calm(context, voice)
-        transcript += [f"({one.name} {one.properties['text']})" for one in events]
+        found.transcript += [f"({one.name} {one.properties['text']})" for one in events]
         if any(one.name == HEARD for one in events):
             break
     for one in following:
         one.cancel()
+
+
+def _spoken(value: Any) -> str:
+    """A value of a slot as a person says it; a duration is in seconds."""
+    if isinstance(value, list):
+        return AND.join(value) or PLAIN
+    if isinstance(value, int) and value >= SHORTEST:
+        return f"{value // 60} minutes" if value % 60 == 0 else f"{value} seconds"
+    text = str(value)
+    return f"in {text.removesuffix(AHEAD)}" if text.endswith(AHEAD) else text
 
 
 async def _say(context: TaskContext, samples: Samples) -> None:
@@ -198,6 +275,10 @@ def main() -> None:
     if options.out:
         Path(options.out).write_text("\n\n".join(map(_told, played)) + "\n")
     print(f"{right} of {len(played)} end as expected ({right / len(played):.0%}), {hangs} hang")
+    if options.spoken:
+        print(
+            f"in {sum(one.plain > 0 for one in played)} the person had to say more than the lines"
+        )
     raise SystemExit(hangs > 0 or right < 0.9 * len(played))
 
 

@@ -72,6 +72,8 @@ def judge(
     meant = (meaning for other, meaning in others if other.share >= LIKELY)
     likely = [] if found is None else [found, *filter(None, meant)]
     doubt = min(1.0, sum(alternative.share for alternative in doubts))
+    believed = _believed(grammar, hypothesis, found, strictness, turn)
+    hypothesis = replace(hypothesis, confidence=believed)
     confidence = hypothesis.confidence * (1.0 - doubt)
     words, start, end = _times(segment, hypothesis)
     least = needed(grammar, found, strictness, turn)
@@ -256,6 +258,17 @@ def needed(
     elif not (turn.is_addressed or "interrupts" in marks or _is_named(grammar, found)):
         share += SURELY if "careful" in marks else UNASKED
     return strictness + share * (1.0 - strictness)
+
+
+def _believed(
+    grammar: Grammar, hypothesis: Hypothesis, found: Parse | None, strictness: float, turn: Turn
+) -> float:
+    """The confidence in a sentence; there is more in an answer that is said a second time."""
+    if found is None or turn.doubt is None or not turn.is_question_open:
+        return hypothesis.confidence
+    if "careful" in grammar.rules[found.rule].marks:
+        return hypothesis.confidence
+    return turn.doubt.and_again(hypothesis.text, hypothesis.confidence, strictness)
 
 
 def _parse_of(grammar: Grammar, text: str, rules: Collection[str], turn: Turn) -> Parse | None:

@@ -25,7 +25,7 @@ from hri.speech.grammar_stack import GrammarStack, Layer, Prepare, as_written
 from hri.speech.own_voice_filter import OwnVoiceFilter
 from hri.speech.recognizers.typed import LineDecoder
 from hri.speech.room_noise import RoomListener
-from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
+from hri.speech.turn import DOUBTED_FOR, FOLLOW_UP, Doubt, Turn, Wakefulness
 from hri.speech.turn_taking import GOES_ON, Reading, TurnTaking
 from hri.speech.understanding import SILENT_AFTER, STEP, Heard, understand
 
@@ -132,6 +132,8 @@ class Listener(Behavior):
     _followed: Followed | None = None
     """The last command that others may follow, until some time."""
     _followed_until = 0.0
+    _doubt: Doubt | None = None
+    """The last answer that was nearly taken."""
     _understood_until = 0.0
     """Until when others may follow the last utterance, whatever its rule."""
     last_utterance: Utterance | None = None
@@ -413,6 +415,7 @@ class Listener(Behavior):
             is_awake=is_awake,
             is_addressed=is_addressed or is_for_it or is_awake or is_question_open,
             last=self._last(start),
+            doubt=self._doubted(start),
         )
 
     def _last(self, now: float) -> Followed | None:
@@ -420,6 +423,10 @@ class Listener(Behavior):
         if now <= self._followed_until:
             return self._followed
         return Followed() if now <= self._understood_until else None
+
+    def _doubted(self, now: float) -> Doubt | None:
+        doubt = self._doubt
+        return doubt if doubt is not None and now <= doubt.time + DOUBTED_FOR else None
 
     def _understand(self, segment: Segment, piece: _Piece, turn: Turn, begun: float) -> Tell:
         """Decode a piece; runs in the worker."""
@@ -545,6 +552,8 @@ class Listener(Behavior):
             piece.told(result)
         confidence = round(result.confidence, 3)
         if isinstance(result, Rejection):
+            if piece.was_question_open and result.reason == "low confidence":
+                self._doubt = Doubt(result.text, result.confidence, result.end)
             self._events.raise_event(
                 "speech.rejected",
                 reason=result.reason,
@@ -561,7 +570,7 @@ class Listener(Behavior):
                 level_db=result.level_db,
             )
             return
-        self._taken_back = ""
+        self._taken_back, self._doubt = "", None
         self._wakefulness.extend(result.end)
         self.last_utterance = result
         self._understood_until = result.end + FOLLOWED_FOR

@@ -21,6 +21,31 @@ QUESTION = "question.open"
 FOLLOW_UP = 8.0
 """Seconds after something was heard or said in which no wake word is needed."""
 
+DOUBTED_FOR = 20.0
+"""Seconds in which the same answer, said again, is believed more."""
+NEARLY = 0.5
+"""Share of the strictness that an answer must reach to count when it is said again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """An answer that was nearly taken."""
+
+    text: str
+    confidence: float
+    time: float
+    """When it ended, in seconds."""
+
+    def and_again(self, text: str, confidence: float, strictness: float) -> float:
+        """The confidence in what is said after it; who says the same again is believed more.
+
+        Both are taken as independent witnesses (noisy or; Pearl, Probabilistic Reasoning in
+        Intelligent Systems, 1988, section 4.3), unless one of them says next to nothing.
+        """
+        if text != self.text or min(confidence, self.confidence) < NEARLY * strictness:
+            return confidence
+        return 1.0 - (1.0 - self.confidence) * (1.0 - confidence)
+
 
 @dataclass(frozen=True, slots=True)
 class Turn:
@@ -38,6 +63,8 @@ class Turn:
     """Whether it comes from a keyboard."""
     last: Followed | None = None
     """The command that was understood a while ago at most, if others may follow it."""
+    doubt: Doubt | None = None
+    """What was said last to the question that is open, and was not sure."""
 
     def of(self, segment: Segment) -> Turn:
         """The turn of a piece of speech: what is typed is meant for the robot."""

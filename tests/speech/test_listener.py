@@ -231,6 +231,43 @@ def test_the_engine_is_told_which_rules_count():
     assert stage.names() == ["speech.rejected", "speech.heard"]
 
 
+@pytest.mark.parametrize(
+    ("first", "again", "after", "is_heard"),
+    [
+        (("yes", 0.4), ("yes", 0.4), 3.0, True),
+        (("yes", 0.27), ("yes", 0.27), 3.0, False),
+        (("yes", 0.45), ("yes", 0.2), 3.0, False),
+        (("yes", 0.2), ("yes", 0.45), 3.0, False),
+        (("yes", 0.45), ("no", 0.45), 3.0, False),
+        (("yes", 0.45), ("yes", 0.45), 25.0, False),
+    ],
+)
+def test_an_answer_that_is_said_again_is_believed_more(first, again, after, is_heard):
+    listener = Listener()
+    listener.question.sources.append(OutputPort(True))
+    stage = Stage(listener)
+    stage.ears.script |= {1.0: first, 1.0 + after: again}
+
+    stage.run(after + 2.0)
+
+    assert stage.names()[0] == "speech.rejected"
+    assert stage.names()[1:] == (["speech.heard"] if is_heard else ["speech.rejected"])
+
+
+@pytest.mark.parametrize("is_open", [True, False])
+def test_a_careful_command_or_one_without_a_question_is_not_believed_more(is_open, write):
+    grammar = write("/** @careful */ public <go> = go away;\npublic <hello> = hello;")
+    listener = Listener(grammar=str(grammar))
+    listener.question.sources.append(OutputPort(is_open))
+    stage = Stage(listener)
+    said = ("go away" if is_open else "hello", 0.45)
+    stage.ears.script |= {1.0: said, 4.0: said}
+
+    stage.run(6.0)
+
+    assert stage.names() == ["speech.rejected", "speech.rejected"]
+
+
 def test_a_wake_word_opens_the_talk_for_a_while(write):
     grammar = write("/** @wake */ public <hey> = hey robot;\npublic <greet> = hello;")
     stage = Stage(Listener(grammar=str(grammar), follow_up=3.0))
