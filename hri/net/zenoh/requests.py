@@ -65,7 +65,9 @@ def _state(asked: Asked, arguments: Mapping[str, Any]) -> dict[str, Any]:
         "battery": battery.level(context.clock.now()) if battery is not None else None,
         "base": None if base is None else "stopped" if base.is_latched else "free",
         "networks": sorted(robot.networks.runners),
-        "tasks": sorted({task.name for task in robot.tasks.installed}),
+        "tasks": sorted(
+            {task.name for task in robot.tasks.installed if not task.name.startswith("_")}
+        ),
     }
 
 
