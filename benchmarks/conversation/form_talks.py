@@ -62,8 +62,12 @@ AHEAD = " from now"
 CHANGED = "changed"
 """What is asked for after a no."""
 AND = " and "
+CHANGES = {"pizza": "{size} with {toppings}", "meeting": "{day} at {hour}"}
+"""What a person says that something was wrong."""
 PLAIN = "plain"
-READ_BACK = {PLAIN: "nothing"}
+READ = re.compile("^robot: Shall I order .* pizza with |^robot: [A-Z][a-z]+day at ")
+"""What a robot says that asks whether all is right, up to its last slot."""
+READ_BACK = {PLAIN: "nothing on it"}
 """What the robot says for it, where that is another word."""
 CLOCK = re.compile(r"\d+:\d\d [AP]M")
 NOTED = re.compile(r"(Monday|Tuesday|Wednesday) at (\d+)\?")
@@ -152,14 +156,10 @@ def _may_agree(context: TaskContext, found: Played) -> bool:
 
 def _is_right(found: Played) -> bool:
     """Whether the robot asks for a yes to what is expected."""
-    question = next(line for line in reversed(found.transcript) if line.startswith("robot"))
-    *_, end = re.split(" pizza with | at ", question.rstrip("?"))
+    *_, question = (line for line in found.transcript if READ.search(line))
+    *_, end = READ.split(question.rstrip("?"))
     first, last = [_spoken(value) for value in (found.expects or {}).values()]
-    return (
-        first in question
-        and end.startswith(READ_BACK.get(last, last))
-        and end.count(AND) == last.count(AND)
-    )
+    return first in question and end.replace(", ", AND) == READ_BACK.get(last, last)
 
 
 def _plain(context: TaskContext, found: Played) -> str:
@@ -167,11 +167,12 @@ def _plain(context: TaskContext, found: Played) -> str:
     asked = _asked(context)
     if found.expects is None:
         return "never mind"
-    if asked == CHANGED:
-        return " ".join(_spoken(value) for value in found.expects.values())
+    values = {slot: _spoken(value) for slot, value in found.expects.items()}
     if asked == CONFIRMED:
         return "yes" if _is_right(found) else "no"
-    return _spoken(found.expects[asked])
+    if asked == CHANGED:
+        return CHANGES[found.form].format_map(values)
+    return values[asked]
 
 
 async def _speak_plainly(context: TaskContext, found: Played, person: str) -> None:
@@ -206,7 +207,7 @@ def _spoken(value: Any) -> str:
         return AND.join(value) or PLAIN
     if isinstance(value, int) and value >= SHORTEST:
         return f"{value // 60} minutes" if value % 60 == 0 else f"{value} seconds"
-    text = str(value)
+    text = str(value).replace(":00", "")
     return f"in {text.removesuffix(AHEAD)}" if text.endswith(AHEAD) else text
 
 

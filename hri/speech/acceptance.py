@@ -68,7 +68,11 @@ def judge(
     found = _parse_of(grammar, hypothesis.text, rules, turn)
     alternatives = (*hypothesis.alternatives, *_as_specific(grammar, found, rules, turn))
     others = [(other, _meaning(grammar, other.text, turn)) for other in alternatives]
-    doubts = [other for other, meaning in others if _differ(found, meaning)]
+    doubts = [
+        other
+        for other, meaning in others
+        if _differ(found, meaning) and not _is_value(grammar, hypothesis, found, meaning)
+    ]
     meant = (meaning for other, meaning in others if other.share >= LIKELY)
     likely = [] if found is None else [found, *filter(None, meant)]
     doubt = min(1.0, sum(alternative.share for alternative in doubts))
@@ -295,6 +299,19 @@ def _meaning(
 def _differ(one: Parse | None, other: Parse | None) -> bool:
     """Whether two texts mean different things; one without a meaning differs from all."""
     return one is None or other is None or (one.rule, one.tags) != (other.rule, other.tags)
+
+
+def _is_value(
+    grammar: Grammar, hypothesis: Hypothesis, found: Parse | None, other: Parse | None
+) -> bool:
+    """Whether another meaning is that of words which fill a free slot of a sentence.
+
+    Who says "remind me to call my mother" does not ask for a call. A stop counts wherever it is.
+    """
+    if found is None or found.around or other is None:
+        return False
+    is_phrase = len(other.text.split()) > 1 and other.rule not in grammar.marked("interrupts")
+    return is_phrase and any(f" {other.text} " in f" {slot.text} " for slot in hypothesis.slots)
 
 
 def _reason(

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from hri.core.signals import Rejection, Utterance
+from hri.core.signals import HeardSlot, Rejection, Utterance
 from hri.hal.recognizer import Alternative, HeardWord, Hypothesis, Segment
 from hri.speech.acceptance import LIKELY, agreed, disputed, judge
 from hri.speech.grammar import load_grammar
@@ -49,6 +49,31 @@ def test_a_sentence_of_the_grammar_that_does_not_fit_the_sound_is_called_the_nea
 def test_what_moves_the_robot_must_be_heard_more_clearly(grammar):
     assert reason(grammar, "go back", 0.52) == "low confidence"
     assert reason(grammar, "go back", 0.56) == "move"
+
+
+@pytest.mark.parametrize(
+    ("deed", "other", "is_meant"),
+    [
+        ("call my mother", "call my mother", True),
+        ("call my mother at noon", "call my mother", True),
+        ("call me mother", "call my mother", False),
+        ("say stop now", "stop now", False),
+        ("phone", "phone", False),
+    ],
+)
+def test_words_of_a_free_slot_are_no_command_but_a_stop_counts(write, deed, other, is_meant):
+    grammar = load_grammar(
+        write(
+            "public <remind> = remind me to <deed.spoken 1-9>;\n"
+            "public <phone> = call my mother | phone;\n"
+            "/** @interrupts */ public <stop> = stop now;\n"
+        )
+    )
+    slot = HeardSlot("deed", deed, (), 0.9, ())
+    hypothesis = Hypothesis(
+        f"remind me to {deed}", 0.9, alternatives=(Alternative(other, 0.95),), slots=(slot,)
+    )
+    assert isinstance(judge(grammar, PIECE, hypothesis), Utterance) == is_meant
 
 
 def test_what_may_as_well_mean_something_else_is_doubted(grammar):
