@@ -123,9 +123,9 @@ async def _talk(context: TaskContext, found: Played, robot: Robot, person: str) 
         await _say(context, VOICES[NEW[0]](HELLO))
     await _until_calm(context, voice)
     for number, line in enumerate([*found.says, None], 1):
-        is_last = number == len(found.says)
+        is_last = number >= len(found.says)
         if person and is_last and _asked(context) and not _may_agree(context, found):
-            continue  # Nobody agrees to what is wrong.
+            break  # Nobody agrees to what is wrong.
         found.transcript.append("(silence)" if line is None else f"you: {line}")
         if line is None:
             await _until_it_speaks(context, found.transcript)
@@ -207,7 +207,7 @@ def _spoken(value: Any) -> str:
         return AND.join(value) or PLAIN
     if isinstance(value, int) and value >= SHORTEST:
         return f"{value // 60} minutes" if value % 60 == 0 else f"{value} seconds"
-    text = str(value).replace(":00", "")
+    text = str(value).replace(":00", "").replace("AM", "a m").replace("PM", "p m")
     return f"in {text.removesuffix(AHEAD)}" if text.endswith(AHEAD) else text
 
 
