@@ -207,7 +207,7 @@ def _spoken(value: Any) -> str:
         return AND.join(value) or PLAIN
     if isinstance(value, int) and value >= SHORTEST:
         return f"{value // 60} minutes" if value % 60 == 0 else f"{value} seconds"
-    text = str(value).replace(":00", "").replace("AM", "a m").replace("PM", "p m")
+    text = str(value).replace(":00", "").replace("AM", "in the morning")
     return f"in {text.removesuffix(AHEAD)}" if text.endswith(AHEAD) else text
 
 
