@@ -65,7 +65,7 @@ AND = " and "
 CHANGES = {"pizza": "{size} with {toppings}", "meeting": "{day} at {hour}"}
 """What a person says that something was wrong."""
 PLAIN = "plain"
-READ = re.compile("^robot: Shall I order .* pizza with |^robot: [A-Z][a-z]+day at ")
+CONFIRMING = re.compile("^robot: Shall I order .* pizza with |^robot: [A-Z][a-z]+day at ")
 """What a robot says that asks whether all is right, up to its last slot."""
 READ_BACK = {PLAIN: "nothing on it"}
 """What the robot says for it, where that is another word."""
@@ -156,8 +156,8 @@ def _may_agree(context: TaskContext, found: Played) -> bool:
 
 def _is_right(found: Played) -> bool:
     """Whether the robot asks for a yes to what is expected."""
-    *_, question = (line for line in found.transcript if READ.search(line))
-    *_, end = READ.split(question.rstrip("?"))
+    *_, question = (line for line in found.transcript if CONFIRMING.search(line))
+    *_, end = CONFIRMING.split(question.rstrip("?"))
     first, last = [_spoken(value) for value in (found.expects or {}).values()]
     return first in question and end.replace(", ", AND) == READ_BACK.get(last, last)
 

@@ -67,12 +67,13 @@ def judge(
     rules = all_rules or turn.rules(grammar)
     found = _parse_of(grammar, hypothesis.text, rules, turn)
     alternatives = (*hypothesis.alternatives, *_as_specific(grammar, found, rules, turn))
-    others = [(other, _meaning(grammar, other.text, turn)) for other in alternatives]
-    doubts = [
-        other
-        for other, meaning in others
-        if _differ(found, meaning) and not _is_value(grammar, hypothesis, found, meaning)
+    meanings_of = ((other, _meaning(grammar, other.text, turn)) for other in alternatives)
+    others = [
+        (other, meaning)
+        for other, meaning in meanings_of
+        if not _is_value(grammar, hypothesis, found, meaning)
     ]
+    doubts = [other for other, meaning in others if _differ(found, meaning)]
     meant = (meaning for other, meaning in others if other.share >= LIKELY)
     likely = [] if found is None else [found, *filter(None, meant)]
     doubt = min(1.0, sum(alternative.share for alternative in doubts))
@@ -267,7 +268,7 @@ def needed(
 def _believed(
     grammar: Grammar, hypothesis: Hypothesis, found: Parse | None, strictness: float, turn: Turn
 ) -> float:
-    """The confidence in a sentence; there is more in an answer that is said a second time."""
+    """The confidence in a sentence; an answer that is said a second time has more of it."""
     if found is None or turn.doubt is None or not turn.is_question_open:
         return hypothesis.confidence
     if "careful" in grammar.rules[found.rule].marks:
