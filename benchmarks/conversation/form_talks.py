@@ -3,9 +3,9 @@
 
 The orders and meetings are those of `docs/forms.md`, the timers, alarms and reminders the skills of
 the companion. Each line comes when the robot has said all it says; null is silence until it speaks
-again. Of a time that is expected in words the clock is compared, "7:15 AM"; "in 20 minutes" is for
-who reads the transcript. Who speaks and is not understood says the line again, or answers in plain
-words once the robot asks; says no to what is wrong; and answers what is asked beyond the lines.
+again. Of a time in words the clock counts, "7:15 AM", or how long it is, "20 minutes from now". Who
+speaks and is not understood says the line again, or answers in plain words once the robot asks;
+says no to what is wrong; and answers what is asked beyond the lines.
 """
 
 from __future__ import annotations
@@ -70,6 +70,8 @@ CONFIRMING = re.compile("^robot: Shall I order .* pizza with |^robot: [A-Z][a-z]
 READ_BACK = {PLAIN: "nothing on it"}
 """What the robot says for it, where that is another word."""
 CLOCK = re.compile(r"\d+:\d\d [AP]M")
+LENGTH = re.compile(rf"^(\d+) (second|minute|hour)s?{AHEAD}$")
+SECONDS = {"second": 1, "minute": 60, "hour": 3600}
 NOTED = re.compile(r"(Monday|Tuesday|Wednesday) at (\d+)\?")
 
 
@@ -89,12 +91,15 @@ class Played:
 
     @property
     def is_as_expected(self) -> bool:
-        """Whether that was done; of a time in words only the clock is compared."""
+        """Whether that was done."""
         if self.hangs or (self.done is None) != (self.expects is None):
             return False
         done, expects = self.done or {}, self.expects or {}
-        clock = CLOCK.search(expects.get("when", ""))
+        when = expects.get("when", "")
+        clock, length = CLOCK.search(when), LENGTH.search(when)
         if clock is not None and clock[0] not in done["when"]:
+            return False
+        if length is not None and done["duration"] != int(length[1]) * SECONDS[length[2]]:
             return False
         return all(done.get(key) == value for key, value in expects.items() if key != "when")
 

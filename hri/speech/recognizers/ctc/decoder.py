@@ -29,6 +29,7 @@ from hri.speech.recognizers.ctc.key_phrases import (
     confidence_in_phrase,
     has_free,
     is_too_long,
+    joined,
     said_beside,
 )
 from hri.speech.recognizers.ctc.lattice import Path
@@ -226,19 +227,22 @@ def decoded(
     found = sorted(ranked(search, scores, rivals), key=lambda one: is_too_long(one.path))
     if not found:
         return Hypothesis("", 0.0, begun=begun)
-    best, phones = found[0].path, search.graph.phones
+    phones = search.graph.phones
+    if has_free(found[0].path):
+        sure = confidence_in_phrase(found[0].path, log_probabilities, phones, noise)
+        beside = said_beside(found[0].path, search, log_probabilities, rules, noise)
+        found, sure, held = joined(found, sure, list(beside))
+    else:
+        rival = rivals.score(scores, found[0].path.words) + unproven(found[0].path, search.graph)
+        sure, held = confidence(fit_of(found[0].path, rival, scores, phones), noise), []
+    best = found[0].path
     slots = hear_slots(best, scores) if hear_slots is not None else {}
     chances = shares([candidate.score for candidate in found])
     alternatives = [
         Alternative(said(candidate.path.words), float(chance))
         for candidate, chance in zip(found[1:], chances[1:], strict=True)
     ]
-    if has_free(best):
-        sure = confidence_in_phrase(best, log_probabilities, phones, noise)
-        alternatives += said_beside(best, search, log_probabilities, rules, noise)
-    else:
-        rival = rivals.score(scores, best.words) + unproven(best, search.graph)
-        sure = confidence(fit_of(best, rival, scores, phones), noise)
+    alternatives += [Alternative(said(one.path.words), one.confidence) for one in held]
     spelled = [
         slots[place].text if place in slots else word for place, word in enumerate(best.words)
     ]
