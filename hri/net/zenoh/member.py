@@ -16,6 +16,7 @@ import logging
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -29,6 +30,7 @@ from hri.core.signals import Event
 from hri.core.token import is_nonce, own_token
 from hri.net.zenoh import values
 from hri.net.zenoh.acquaintances import Acquaintances
+from hri.net.zenoh.meanings import Meanings
 from hri.net.zenoh.offer import LEASE, Offer
 from hri.net.zenoh.remote_slot import REPEAT, SILENCE, RemoteSlot
 from hri.net.zenoh.requests import Asked, Request, answer_to
@@ -63,7 +65,8 @@ class Member:
         self._clock, self._token = robot.clock, own_token()
         self._pen, self._tickets = Pen(self._token), Tickets()
         self._others = Acquaintances(self._token, robot.clock, self._ask_for_values, self._complain)
-        self._offer = Offer(robot, self._send_rows, self._complain)
+        self._meanings = Meanings(partial(log.warning, "fleet: %s"))
+        self._offer = Offer(robot, self._send_rows, self._complain, self._meanings)
         self._guard, self._sending = threading.Lock(), threading.Lock()
         self._remote: dict[str, RemoteSlot] = {}
         self._put: dict[str, float] = {}
@@ -92,11 +95,18 @@ class Member:
             async with trio.open_nursery() as nursery:
                 self._let_run_in(nursery, context)
                 while True:
-                    for runner in context.networks.runners.values():
-                        if self._offer.send_new not in runner.after_tick:
-                            runner.after_tick.append(self._offer.send_new)
+                    self._look_at_networks(context)
                     self._tend(self._clock.now())
                     await context.clock.sleep(REPEAT)
+
+    def _look_at_networks(self, context: TaskContext) -> None:
+        """Send the values of networks after their ticks, and note what their slots mean."""
+        runners = tuple(context.networks.runners.values())
+        new = [one for one in runners if self._offer.send_new not in one.after_tick]
+        for runner in new:
+            runner.after_tick.append(self._offer.send_new)
+        if new:
+            self._meanings.note(one.network for one in runners)
 
     def _join(self, session: zenoh.Session) -> None:
         name = self.settings.name
@@ -198,24 +208,28 @@ class Member:
     def _send_away(self, slot: RemoteSlot) -> None:
         key = f"hri/{slot.robot}/put/{slot.name}/{self.settings.name}"
         try:
-            row = values.row(slot.name, *slot.get())
+            meaning = self._meanings.sent(f"{slot.robot}/{slot.name}")
+            row = values.row(slot.name, *slot.get(), meaning)
         except HriError as error:
             self._complain(key, str(error))
             return
-        self._put_out(key, row.data, row.made, row.datatype)
+        self._put_out(key, row.data, row.made, row.datatype, row.meaning)
 
     def _send_rows(self, reader: str, rows: Sequence[values.Row]) -> None:
         key = f"hri/{self.settings.name}/values/{reader}"
         self._put_out(key, msgspec.msgpack.encode(rows), self._clock.now(), "values")
 
-    def _put_out(self, key: str, data: bytes, made: float, datatype: str) -> None:
+    def _put_out(
+        self, key: str, data: bytes, made: float, datatype: str, meaning: str = ""
+    ) -> None:
         if (session := self._session) is None:
             return
         import zenoh
 
         # In the order of their numbers: one that comes before an earlier one would not count.
         with self._sending, suppress(zenoh.ZError):  # which it raises when it was closed
-            sealed = self._pen.sealed(key, data, self._clock.now(), made, datatype)
+            now = self._clock.now()
+            sealed = self._pen.sealed(key, data, now, made, datatype, meaning)
             drop = zenoh.CongestionControl.DROP
             session.put(key, data, attachment=sealed, congestion_control=drop, express=True)
 
@@ -277,6 +291,7 @@ class Member:
                 slot = self._remote.get(f"{robot}/{row.address}")
                 if slot is not None and not slot.is_written:
                     slot.arrive(row.value(), believed.arrival(row.made, row.datatype))
+                    self._meanings.check(f"{robot}/{row.address}", row.meaning, robot)
         except HriError as error:
             self._complain(key, str(error))
 
@@ -300,6 +315,7 @@ class Member:
             here.clear()
         else:
             self._put[slot] = came.now
+            self._meanings.check(slot, believed.envelope.meaning, robot)
             here.set(value, came.now, came.spoken, robot)
 
     def _datatype_wanted(self, slot: str) -> str | None:

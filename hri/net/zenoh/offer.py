@@ -6,9 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from hri.behavior.board import DECLARED
+from hri.behavior.ports import GENERIC
 from hri.core.errors import HriError
 from hri.core.signals import Frame
 from hri.net.zenoh import values
+from hri.net.zenoh.meanings import Meanings
 from hri.net.zenoh.remote_slot import REPEAT
 from hri.net.zenoh.session import is_name
 from hri.robot import Robot
@@ -28,8 +30,10 @@ class Offer:
         robot: Robot,
         send: Callable[[str, Sequence[values.Row]], object],
         complain: Callable[[str, str], object],
+        meanings: Meanings,
     ) -> None:
         """`send` gets a reader and its values; `complain` a subject and a line."""
+        self._meanings = meanings
         self._robot, self._send, self._complain = robot, send, complain
         self._wanted: dict[str, dict[str, float]] = {}
         """Until when each address is sent, by who reads it."""
@@ -72,7 +76,7 @@ class Offer:
 
     def _row(self, reader: str, address: str, now: float, is_again: bool) -> values.Row | None:
         """A value as it is sent; None where it was sent already, or cannot travel."""
-        value, made = self._value_of(address)
+        value, made, meaning = self._value_of(address)
         sent, before = self._sent.get((reader, address), (-1.0, -1.0))
         if made == before and not (is_again and now - sent >= REPEAT):
             return None
@@ -81,7 +85,7 @@ class Offer:
             self.send_aside(reader, address, value, made)
             return None
         try:
-            return values.row(address, value, made)
+            return values.row(address, value, made, meaning)
         except HriError as error:
             self._complain(address, str(error))
             return None
@@ -100,16 +104,21 @@ class Offer:
         finally:
             self._under_way.discard((reader, address))
 
-    def _value_of(self, address: str) -> tuple[Any, float]:
-        """The value of a slot, or the last one of a port of a network, and when it was made."""
+    def _value_of(self, address: str) -> tuple[Any, float, str]:
+        """The value of a slot, or the last one of a port of a network, when it was made, and what
+        it means; empty for whatever.
+        """
         network, _, rest = address.partition(".")
         behavior, _, output = rest.partition(".")
         runner = self._robot.networks.runners.get(network)
         if runner is not None and output:
             for one in runner.network.behaviors:
                 if one.id == behavior and output in one.outputs:
-                    return one.output_port(output).value, runner.last_tick
+                    semantic = one.outputs[output].semantic
+                    meaning = semantic if semantic != GENERIC else ""
+                    return one.output_port(output).value, runner.last_tick, meaning
         if address in DECLARED or address in self._robot.board:
             value, made = self._robot.board.slot(address).get()
-            return value, made if value is not None else -made
-        return None, 0.0
+            made = made if value is not None else -made
+            return value, made, self._meanings.sent(address)
+        return None, 0.0, ""

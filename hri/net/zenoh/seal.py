@@ -39,6 +39,8 @@ class Envelope(msgspec.Struct, array_like=True, forbid_unknown_fields=True, froz
     """When the value was made."""
     datatype: str
     """Empty for "there is none"."""
+    meaning: str = ""
+    """Of the value, as in `hri.net.zenoh.values.Row`."""
     mac: bytes = b""
 
 
@@ -62,10 +64,18 @@ class Pen:
         self.epoch = new_nonce()
         self._number = 0
 
-    def sealed(self, key: str, value: bytes, time: float, made: float, datatype: str) -> bytes:
+    def sealed(
+        self,
+        key: str,
+        value: bytes,
+        time: float,
+        made: float,
+        datatype: str,
+        meaning: str = "",
+    ) -> bytes:
         """The envelope of a value under a key expression; see `Envelope`."""
         self._number += 1
-        envelope = Envelope(self.epoch, self._number, time, made, datatype)
+        envelope = Envelope(self.epoch, self._number, time, made, datatype, meaning)
         return msgspec.msgpack.encode(
             msgspec.structs.replace(envelope, mac=_mac(self._token, key, value, envelope))
         )
@@ -193,7 +203,8 @@ def _require_seal(token: str, key: str, value: bytes, found: Envelope) -> None:
 
 
 def _mac(token: str, key: str, value: bytes, of: Envelope) -> bytes:
-    told = ("hri fleet", key, of.epoch, of.number, of.time, of.made, of.datatype, value)
+    own = (of.epoch, of.number, of.time, of.made, of.datatype, of.meaning)
+    told = ("hri fleet", key, *own, value)
     return hmac.digest(token.encode(), msgspec.msgpack.encode(told), "sha256")
 
 

@@ -57,18 +57,20 @@ class Row(msgspec.Struct, array_like=True, forbid_unknown_fields=True, frozen=Tr
     datatype: str
     """Empty for "there is none"."""
     data: bytes
+    meaning: str = ""
+    """Of the port that it comes from, such as `Evolution.LinearVelocity`; empty for whatever."""
 
     def value(self) -> Any:
         """The value itself; None for none. Raises HriError as `read` does."""
         return read(self.datatype, self.data) if self.datatype else None
 
 
-def row(address: str, value: Any, made: float) -> Row:
+def row(address: str, value: Any, made: float, meaning: str = "") -> Row:
     """A value as it travels. Raises HriError for one that cannot."""
     if value is None:
         return Row(address, made, "", b"")
     datatype = datatype_of(value)
-    return Row(address, made, datatype, written(datatype, value))
+    return Row(address, made, datatype, written(datatype, value), meaning)
 
 
 def rows_of(data: bytes) -> list[Row]:

@@ -197,3 +197,27 @@ def test_a_name_is_plain(name):
 def test_other_machines_need_a_word():
     with pytest.raises(HriError, match="--allow-remote"):
         FleetSettings("anna", connect=("tcp/192.168.1.5:7447",))
+
+
+SPEED = '<Behavior id="crash" type="Hri.StopCrash"/><Link from="crash.velocity" to="{}"/>'
+TURN = (
+    '<Behavior id="wheels" type="Hri.DriveSystem"/><Link from="{}" to="wheels.angular_velocity"/>'
+)
+
+
+@pytest.mark.parametrize(
+    ("sends", "reads", "warned"),
+    [
+        ("board.speed", "board.anna/speed", "anna/speed"),
+        ("board.berta/turn", "board.turn", "turn"),
+        ("board.speed", "board.anna/anna.crash.velocity", "anna/anna.crash.velocity"),
+    ],
+)
+def test_a_value_that_means_something_else_is_warned_of(living, caplog, sends, reads, warned):
+    living("anna", SPEED.format(sends))
+    living("berta", TURN.format(reads))
+    line = (
+        f"fleet: anna sends Evolution.LinearVelocity, but {warned} is read as"
+        " Evolution.AngularVelocity"
+    )
+    assert until(lambda: line in [one.message for one in caplog.records])
