@@ -1,4 +1,4 @@
-"""What slots mean to the networks here, held against what other robots mean by them.
+"""Meanings of slots to the networks here, compared with those that other robots send.
 
 As between two networks of one robot, a value that means something else counts, and a line warns.
 """
