@@ -62,14 +62,21 @@ AHEAD = " from now"
 CHANGED = "changed"
 """What is asked for after a no."""
 AND = " and "
-CHANGES = {"pizza": "{size} with {toppings}", "meeting": "{day} at {hour}"}
-"""What a person says that something was wrong."""
+CHANGES = {
+    "pizza": "{size} with {toppings}",
+    "meeting": "{day} at {hour}",
+    "timer": "{duration}",
+    "alarm": "{when}",
+    "reminder": "{deed}",
+}
+"""What a person says where something was wrong, or no slot is asked for."""
 PLAIN = "plain"
 CONFIRMING = re.compile("^robot: Shall I order .* pizza with |^robot: [A-Z][a-z]+day at ")
 """What a robot says that asks whether all is right, up to its last slot."""
 READ_BACK = {PLAIN: "nothing on it"}
 """What the robot says for it, where that is another word."""
 CLOCK = re.compile(r"\d+:\d\d [AP]M")
+NOON = "at noon"
 LENGTH = re.compile(rf"^(\d+) (second|minute|hour)s?{AHEAD}$")
 SECONDS = {"second": 1, "minute": 60, "hour": 3600}
 NOTED = re.compile(r"(Monday|Tuesday|Wednesday) at (\d+)\?")
@@ -97,7 +104,7 @@ class Played:
         done, expects = self.done or {}, self.expects or {}
         when = expects.get("when", "")
         clock, length = CLOCK.search(when), LENGTH.search(when)
-        if clock is not None and clock[0] not in done["when"]:
+        if clock is not None and clock[0] not in done["when"].replace(NOON, "12:00 PM"):
             return False
         if length is not None and done["duration"] != int(length[1]) * SECONDS[length[2]]:
             return False
@@ -212,7 +219,7 @@ def _spoken(value: Any) -> str:
         return AND.join(value) or PLAIN
     if isinstance(value, int) and value >= SHORTEST:
         return f"{value // 60} minutes" if value % 60 == 0 else f"{value} seconds"
-    text = str(value).replace(":00", "").replace("AM", "in the morning")
+    text = str(value).replace(":00", "").replace("AM", "in the morning").replace("your ", "my ")
     return f"in {text.removesuffix(AHEAD)}" if text.endswith(AHEAD) else text
 
 

@@ -90,8 +90,8 @@ class Form:
         return TURNS_EACH * (len(self.slots) + 1)
 
     def taken(self, tags: Mapping[str, Any]) -> dict[str, Any]:
-        """Those tags that are slots of the form."""
-        return {slot.name: tags[slot.name] for slot in self.slots if slot.name in tags}
+        """Those tags that are slots of the form; in a list nothing twice."""
+        return {slot.name: _once(tags[slot.name]) for slot in self.slots if slot.name in tags}
 
     def next_slot(self, values: Mapping[str, Any]) -> Slot | None:
         """The first slot of which something is to be asked."""
@@ -102,6 +102,10 @@ class Form:
         said = {slot.name: _said(values.get(slot.name, NOTHING), slot) for slot in self.slots}
         filled = text.format_map(said)
         return filled[:1].upper() + filled[1:]
+
+
+def _once(value: Any) -> Any:
+    return tuple(dict.fromkeys(value)) if isinstance(value, tuple) else value
 
 
 def _said(value: Any, slot: Slot) -> str:

@@ -63,6 +63,11 @@ def test_slots_are_said_as_people_do(pizza, toppings, said):
     assert pizza.filled_in(pizza.confirm, values) == f"A small pizza with {said}?"
 
 
+def test_a_value_is_in_a_list_once(pizza):
+    taken = pizza.taken({"size": "small", "toppings": ("bacon", "olives", "bacon"), "other": 1})
+    assert taken == {"size": "small", "toppings": ("bacon", "olives")}
+
+
 @pytest.mark.parametrize(
     ("text", "what"),
     [

@@ -5,19 +5,25 @@ ring_reminders    says each at its time, from the start
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from hri.conversation import (
     Alarm,
     AlarmKeeper,
     AlarmKind,
     TooManyAlarms,
+    fill,
     length_words,
+    load_forms,
     ring,
     turned,
 )
 from hri.robot import verbs
 from hri.task import TaskContext
 
+FORMS = Path(__file__).with_name("forms.toml")
 DEED = "What do you want to do then?"
+ANY_DEED = "What should I remind you of?"
 UNSAVED = " But I can't save it, so please don't switch me off."
 
 
@@ -33,14 +39,20 @@ def words_of(alarm: Alarm, late: float) -> str:
     return f"A reminder: you wanted to {alarm.about}."
 
 
+async def set_reminder(context: TaskContext) -> str:
+    """Ask what to remind of, and when."""
+    deed = await _deed(context, ANY_DEED)
+    values = await fill(context, load_forms([FORMS])["reminder"], {}) if deed else None
+    return await remind(context, deed=deed, **values) if values else ""
+
+
 async def remind(context: TaskContext, when: str, deed: str = "", thing: str = "") -> str:
     """Remind of something at a time; what it is may be left to be asked for."""
     keeper = AlarmKeeper.of(context)
     if not deed and not thing:
-        answer = await verbs.ask_value(context, "remind", "deed", question=DEED)
-        if answer is None:
+        deed = await _deed(context, DEED)
+        if not deed:
             return ""
-        deed = str(answer.tags["deed"]).removeprefix("to ")
     about = turned(deed.split()) if deed else f"think of your {thing}"
     try:
         reminder = keeper.promise(AlarmKind.REMINDER, when, about)
@@ -50,6 +62,12 @@ async def remind(context: TaskContext, when: str, deed: str = "", thing: str = "
         return "I can only remind you at a time to come."
     words = f"Okay, I'll remind you to {about} {keeper.when_words(reminder)}."
     return words if await keeper.kept() else words + UNSAVED
+
+
+async def _deed(context: TaskContext, question: str) -> str:
+    """What someone wants to do; empty without an answer."""
+    answer = await verbs.ask_value(context, "remind", "deed", question=question)
+    return str(answer.tags["deed"]).removeprefix("to ") if answer is not None else ""
 
 
 async def ask_reminders(context: TaskContext) -> str:
