@@ -4,14 +4,15 @@ import pytest
 @pytest.fixture
 def living(tmp_path):
     """Lets robots live, and ends them."""
+    from hri.net.zenoh.session import FleetSettings
     from tests.net.zenoh.robots import NETWORK, Living
 
     robots = []
 
-    def live(name, links=""):
+    def live(name, links="", **settings):
         path = tmp_path / f"{name}.xml"
         path.write_text(NETWORK.format(name=name, links=links))
-        robots.append(Living(name, path))
+        robots.append(Living(FleetSettings(name, **settings), path))
         return robots[-1]
 
     yield live

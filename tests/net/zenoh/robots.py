@@ -10,7 +10,6 @@ import trio
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.net.zenoh.member import Member
-from hri.net.zenoh.session import FleetSettings
 from hri.robot import Robot
 from tests.net.conftest import WITHIN
 
@@ -27,9 +26,9 @@ NETWORK = """
 class Living:
     """A robot of a fleet that lives in a thread."""
 
-    def __init__(self, name, path):
+    def __init__(self, settings, path):
         self.robot = Robot(str(path), "simulated", clock=RealClock())
-        self.member = Member(self.robot, FleetSettings(name))
+        self.member = Member(self.robot, settings)
         self.board = self.robot.board
         self.failed = []
         self._lives = threading.Event()
