@@ -219,7 +219,8 @@ def _spoken(value: Any) -> str:
         return AND.join(value) or PLAIN
     if isinstance(value, int) and value >= SHORTEST:
         return f"{value // 60} minutes" if value % 60 == 0 else f"{value} seconds"
-    text = str(value).replace(":00", "").replace("AM", "in the morning").replace("your ", "my ")
+    text = f"{value:g}" if isinstance(value, float) else str(value)
+    text = text.replace(":00", "").replace("AM", "in the morning").replace("your ", "my ")
     return f"in {text.removesuffix(AHEAD)}" if text.endswith(AHEAD) else text
 
 

@@ -16,8 +16,8 @@ import random
 import signal
 import threading
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from multiprocessing.connection import Connection as Pipe
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -28,6 +28,7 @@ import psutil
 import zenoh
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.drive_command import DriveCommand
 from hri.behavior.network import Network
 from hri.behavior.ports import Output
 from hri.bench.figures import machine
@@ -35,13 +36,15 @@ from hri.bench.table import Row, amount, at_least, at_most
 from hri.bench.ticks import INTERVAL, NAME, SETTLING, Stopwatch, figures
 from hri.bench.workers import variables
 from hri.core.errors import HriError
+from hri.core.signals import Event, Twist
 from hri.hal.drive import DriveSystem
 from hri.hal.resource import Description, Resource
 from hri.net.zenoh.fleet import Fleet
 from hri.net.zenoh.member import Member
 from hri.net.zenoh.remote_slot import RemoteSlot
-from hri.net.zenoh.session import FleetSettings, opened
+from hri.net.zenoh.session import FleetSettings, free_port, opened
 from hri.robot import Robot
+from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
 
 PATIENCE = 60.0
@@ -56,6 +59,13 @@ KILLS, CUTS = 10, 50
 ROBOTS, PROCESSES = 100, 4
 MESSAGES = 100_000
 SEED = 7
+SPEED, STOPS = 0.3, 10
+LOST = {
+    "driver killed": ("driver", signal.SIGKILL),
+    "driver frozen": ("driver", signal.SIGSTOP),
+    "router killed": ("router", signal.SIGKILL),
+}
+ALONE = {"multicast": {"enabled": False}}
 EMPTY = '<BehaviorNetwork name="empty" invocation_interval="1"/>'
 ROOM = "[robot]\nstart = [0, 0]\n"
 BARE = """
@@ -102,16 +112,21 @@ def _living(name: str, folder: str, count: int, pipe: Pipe) -> None:
     robot.live_until_over(member.be_in_fleet, begin)
 
 
+def _other(name: str, folder: str, count: int) -> AbstractContextManager[tuple[Pipe, int]]:
+    return _process(_living, name, folder, count)
+
+
 @contextmanager
-def _other(name: str, folder: str, count: int) -> Iterator[tuple[Pipe, int]]:
+def _process(target: Callable[..., None], *arguments: Any) -> Iterator[tuple[Pipe, int]]:
+    """A process that sends its number when it has begun, and ends when it is sent something."""
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
-    process = context.Process(target=_living, args=(name, folder, count, there), daemon=True)
+    process = context.Process(target=target, args=(*arguments, there), daemon=True)
     process.start()
     if not here.poll(PATIENCE):
-        raise HriError("the other robot does not begin - run the bench again")
+        raise HriError("the other process does not begin - run the bench again")
     yield here, here.recv()
-    if process.is_alive():
+    with suppress(OSError):  # It was killed.
         here.send(None)
     process.join(PATIENCE)
 
@@ -192,6 +207,79 @@ def _lost(folder: str, number: signal.Signals) -> float:
 
         robot.live_until_over(member.be_in_fleet, watch)
     return found[0]
+
+
+def steering(folder: str) -> Iterator[Row]:
+    """How soon a base at 0.3 m/s is at rest whose driver is killed, freezes, or has no router."""
+    for what, (who, number) in LOST.items():
+        found = [_stopped(folder, who, number) for _ in range(STOPS)]
+        asked, stood = (1e3 * max(times) for times in zip(*found, strict=True))
+        yield amount(f"{what}: velocity 0 asked for, longest", asked, "ms", at_most(250.0))
+        yield amount(f"{what}: base at rest, longest", stood, "ms", None)
+
+
+def _driving(settings: FleetSettings, folder: str, pipe: Pipe) -> None:
+    """A process with a robot that steers another one."""
+    robot = Robot(str(Path(folder, "empty.xml")), "simulated")
+    member = Member(robot, settings)
+
+    async def drive(context: TaskContext) -> None:
+        wish = context.board.slot("wheels/wish")
+        pipe.send(os.getpid())
+        while not pipe.poll():
+            wish.set(Twist(SPEED), context.clock.now())
+            await context.clock.sleep(0.05)
+        robot.finish()
+
+    robot.live_until_over(member.be_in_fleet, drive)
+
+
+def _routing(endpoint: str, pipe: Pipe) -> None:
+    """A process with a router."""
+    own = {"mode": "router", "listen": {"endpoints": [endpoint]}, "scouting": ALONE}
+    session = zenoh.open(zenoh.Config.from_json5(json.dumps(own)))
+    pipe.send(os.getpid())
+    pipe.recv()
+    session.close()  # type: ignore[no-untyped-call]
+
+
+def _stopped(folder: str, who: str, number: signal.Signals) -> tuple[float, float]:
+    """Seconds until a velocity of 0 is asked for, and until the base is at rest, and says why."""
+    file, endpoint = Path(folder, "client.json5"), f"tcp/127.0.0.1:{free_port()}"
+    client = {"mode": "client", "connect": {"endpoints": [endpoint]}, "scouting": ALONE}
+    file.write_text(json.dumps(client))
+    with ExitStack() as stack:
+        _, router = stack.enter_context(_process(_routing, endpoint))
+        robot = Robot(str(Path(folder, "empty.xml")), str(Path(folder, "bare.xml")))
+        member = Member(robot, FleetSettings("wheels", allows_remote=True, file=file))
+        driving = FleetSettings("driver", allows_remote=True, file=file)
+        _, driver = stack.enter_context(_process(_driving, driving, folder))
+        found: list[float] = []
+
+        async def watch(context: TaskContext) -> None:
+            base = context.resources.obtain("world", SimulatedWorld).base
+            network = Network("wheels", interval=0.02)
+            network.add(DriveCommand("wheels"))
+            network.connect("board.wish", "wheels.velocity")
+            context.networks.start(network)
+            silent: list[Event] = []
+            context.events.subscribe("fleet.silent", silent.append)
+            while base.velocity.linear < SPEED:
+                await context.clock.sleep(0.002)
+            begun = time.perf_counter()
+            os.kill({"router": router, "driver": driver}[who], number)
+            for is_over in (lambda: base.goal == Twist(), lambda: base.velocity == Twist()):
+                while not is_over():
+                    await context.clock.sleep(0.002)
+                found.append(time.perf_counter() - begun)
+            while not silent:
+                await context.clock.sleep(0.01)
+            for pid in (driver, router):
+                os.kill(pid, signal.SIGKILL)
+            robot.finish()
+
+        robot.live_until_over(member.be_in_fleet, watch)
+    return found[0], found[1]
 
 
 def cuts(folder: str) -> Iterator[Row]:
@@ -401,6 +489,7 @@ def _lateness(folder: str, is_in_fleet: bool) -> float:
 PARTS = {
     "delays": delays,
     "losses": losses,
+    "steering": steering,
     "cuts": cuts,
     "crowd": crowd,
     "hostile": hostile,

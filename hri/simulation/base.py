@@ -76,7 +76,8 @@ class Base:
         self._slip = slip
         self._random = random.Random(seed)
         self._step = 0
-        self._goal = Twist()
+        self.goal = Twist()
+        """The velocity that it approaches."""
         self._is_braking = False
         self._brake_at = 0
 
@@ -91,14 +92,14 @@ class Base:
         What is not finite is taken as a command to stand still.
         """
         self.advance(now)
-        self._goal = reachable(twist, self.limits)
+        self.goal = reachable(twist, self.limits)
         self._is_braking = False
         self._brake_at = self._step + round(WATCHDOG / STEP)
 
     def brake(self, now: float) -> None:
         """Stand still as fast as the base can."""
         self.advance(now)
-        self._goal, self._is_braking = Twist(), True
+        self.goal, self._is_braking = Twist(), True
 
     def push(self, way: float, now: float) -> None:
         """Roll a base that stands and that nothing holds, meters ahead."""
@@ -112,7 +113,7 @@ class Base:
         """Let time pass until `now`; a time that has passed does nothing."""
         last = math.floor(now / STEP + 1e-6)
         while self._step < last:
-            if self.velocity == Twist() == self._goal:
+            if self.velocity == Twist() == self.goal:
                 self._step = last
                 return
             self._move()
@@ -121,7 +122,7 @@ class Base:
         """One step: watchdog, velocity, wheels, then the room has its say."""
         self._step += 1
         if self._step > self._brake_at:
-            self._goal, self._is_braking = Twist(), True
+            self.goal, self._is_braking = Twist(), True
         before, after = self.velocity, self._next_velocity()
         linear = (before.linear + after.linear) / 2 * STEP
         angular = (before.angular + after.angular) / 2 * STEP
@@ -137,7 +138,7 @@ class Base:
         self.velocity = after
 
     def _next_velocity(self) -> Twist:
-        limits, now, goal = self.limits, self.velocity, self._goal
+        limits, now, goal = self.limits, self.velocity, self.goal
         is_slowing = self._is_braking or abs(goal.linear) < abs(now.linear)
         change = limits.braking if is_slowing else limits.acceleration
         is_slowing = self._is_braking or abs(goal.angular) < abs(now.angular)

@@ -73,7 +73,7 @@ def judge(
         for other, meaning in meanings_of
         if not _is_value(grammar, hypothesis, found, meaning)
     ]
-    doubts = [other for other, meaning in others if _differ(found, meaning)]
+    doubts = [other for other, meaning in others if _differ(grammar, found, meaning)]
     meant = (meaning for other, meaning in others if other.share >= LIKELY)
     likely = [] if found is None else [found, *filter(None, meant)]
     doubt = min(1.0, sum(alternative.share for alternative in doubts))
@@ -297,9 +297,15 @@ def _meaning(
     return resolved(grammar, found, turn.last)
 
 
-def _differ(one: Parse | None, other: Parse | None) -> bool:
-    """Whether two texts mean different things; one without a meaning differs from all."""
-    return one is None or other is None or (one.rule, one.tags) != (other.rule, other.tags)
+def _differ(grammar: Grammar, one: Parse | None, other: Parse | None) -> bool:
+    """Whether two texts mean different things; one without a meaning differs from all, and what
+    fills slots of a form alike is the same by whichever rule.
+    """
+    if one is None or other is None:
+        return True
+    if {one.rule, other.rule} <= grammar.marked("fills"):
+        return not are_same(one.tags, other.tags)
+    return (one.rule, one.tags) != (other.rule, other.tags)
 
 
 def _is_value(

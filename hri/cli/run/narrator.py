@@ -37,6 +37,7 @@ LINES = {
     "camera.found": "camera    back",
     "vision.failed": "eyes      {reason}",
     "fleet.asked": "asked     {verb}",
+    "fleet.silent": "lost      {robot} of the fleet: {slot} is empty",
     "mcp.called": "asked     {tool}",
     "mcp.refused": "refused   {tool}",
     "mcp.proposed": "drafted   {draft}",

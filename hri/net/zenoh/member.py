@@ -168,16 +168,24 @@ class Member:
         with self._guard:
             slots = tuple(self._remote.values())
         for slot in slots:
-            slot.look(now)
+            if slot.fell_silent(now):
+                self._tell_silence(slot.robot, f"{slot.robot}/{slot.name}")
             if slot.is_written and slot.value is not None:
                 self._send_away(slot)
         for name, heard in tuple(self._put.items()):
             if now - heard > SILENCE:
                 del self._put[name]
-                self.robot.board.slot(name).clear()
+                here = self.robot.board.slot(name)
+                if here.value is not None:
+                    here.clear()
+                    self._tell_silence(here.writer, name)
         for robot in {slot.robot for slot in slots}:
             if self._others.is_due(robot):
                 self._others.greet(robot)
+
+    def _tell_silence(self, robot: str, slot: str) -> None:
+        log.warning("fleet: %s is silent - %s is empty", robot, slot)
+        self.robot.events.raise_event("fleet.silent", robot=robot, slot=slot)
 
     def _tell(self, event: Event) -> None:
         """Send an event that someone wants, as a recording has it."""

@@ -81,8 +81,11 @@ class RemoteSlot(Latest[Any]):
             else:
                 super().set(value, came.now, came.spoken, self.robot)
 
-    def look(self, now: float) -> None:
-        """Empty it after a silence."""
+    def fell_silent(self, now: float) -> bool:
+        """Whether the other robot was silent for too long; then it is emptied, once."""
         with self._guard:
-            if not self.is_written and now - self._heard > SILENCE and self.value is not None:
-                super().clear()
+            is_silent = not self.is_written and now - self._heard > SILENCE
+            if not is_silent or self.value is None:
+                return False
+            super().clear()
+            return True

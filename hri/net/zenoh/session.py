@@ -82,7 +82,7 @@ def opened(settings: FleetSettings) -> Iterator[zenoh.Session]:
     import zenoh
 
     zenoh.init_log_from_env_or("off")  # RUST_LOG turns it on
-    port = _free_port() if settings.listens_itself else 0
+    port = free_port() if settings.listens_itself else 0
     # Announced before a look at the others: of two that come in at once, one sees the other.
     with _announced(port) if port else nullcontext():
         met = [one for one in _met() if one != port]
@@ -140,7 +140,8 @@ def _wait_for_peers(session: zenoh.Session, count: int) -> None:
         moment.wait(0.005)
 
 
-def _free_port() -> int:
+def free_port() -> int:
+    """A port of the loopback network that no program listens on."""
     with socket.create_server((LOOPBACK, 0)) as found:
         port: int = found.getsockname()[1]
         return port

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 from hri.speech.grammar.expressions import (
     Alternative,
     Anything,
     Expression,
     RuleReference,
+    Sequence,
     Tagged,
+    Token,
     children,
 )
 from hri.speech.grammar.grammar import Grammar
@@ -24,18 +27,31 @@ def values_of(grammar: Grammar, rule: str, tag: str) -> Grammar:
 
     Its sentences have the tags that they have within the rule. The grammar has no command where
     nothing in the rule gives that tag. Around a free slot the words of the rule may be said again:
-    "jazz", and "i like jazz".
+    "jazz", and "i like jazz", also the word before it alone: "to feed the cat".
     """
     own = grammar.rules[rule]
     found = tuple(_givers(grammar, own.expression, tag))
     if any(isinstance(one, Anything) for one in found):
-        found = (own.expression, *found[:1])
+        found = (own.expression, *_words_before(own.expression, tag), *found[:1])
     choice = Alternative(found, (1.0,) * len(found), own.expression.span)
     rules = {key: replace(one, is_public=False) for key, one in grammar.rules.items()}
     marks = tuple(one for one in own.doc_tags if one.name in ("spoken", "careful"))
     key = VALUE if VALUE not in rules else f"{VALUE}.{tag}"
     rules[key] = replace(own, key=key, expression=choice, is_public=bool(found), doc_tags=marks)
     return replace(grammar, rules=rules)
+
+
+def _words_before(node: Expression, tag: str) -> Iterator[Expression]:
+    """The first free slot of a tag that has a word right before it, with that word."""
+    if isinstance(node, Sequence):
+        for before, after in pairwise(node.items):
+            if isinstance(before, Token) and isinstance(after, Anything) and after.slot == tag:
+                yield Sequence((before, after), after.span)
+                return
+    for below in children(node):
+        if found := next(_words_before(below, tag), None):
+            yield found
+            return
 
 
 def _givers(grammar: Grammar, node: Expression, tag: str) -> Iterator[Expression]:

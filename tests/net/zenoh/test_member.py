@@ -30,12 +30,14 @@ def looking(names):
 
 def test_a_slot_of_another_robot_is_read_and_empties_when_it_ends(living):
     anna, berta = living("anna"), living("berta", READS)
-    level = berta.board.slot("anna/level")
+    level, silent = berta.board.slot("anna/level"), []
+    berta.robot.events.subscribe("fleet.silent", lambda event: silent.append(event.properties))
     assert until(lambda: level.value == 5.0)
     assert level.datatype == "double"
     assert level.age < WITHIN
     anna.end()
-    assert until(lambda: level.value is None)
+    assert until(lambda: silent == [{"robot": "anna", "slot": "anna/level"}])
+    assert level.value is None
 
 
 def test_a_robot_that_begins_again_is_read_again(living):
@@ -58,12 +60,14 @@ def test_a_port_of_a_network_of_another_robot_is_read(living):
 def test_a_value_is_written_to_another_robot_and_ends_with_its_writer(living):
     anna, berta = living("anna", TAKES), living("berta")
     berta.board.slot("anna/wish").set(3.0, 0.0)
-    wish = anna.board.slot("wish")
+    wish, silent = anna.board.slot("wish"), []
+    anna.robot.events.subscribe("fleet.silent", lambda event: silent.append(event.properties))
     assert until(lambda: wish.value == 3.0)
     assert anna.robot.clock.now() - wish.spoken <= SILENCE + 1.0
     assert wish.writer == "berta"
     berta.end()
-    assert until(lambda: wish.value is None)
+    assert until(lambda: silent == [{"robot": "berta", "slot": "wish"}])
+    assert wish.value is None
 
 
 def test_a_picture_is_read(living):

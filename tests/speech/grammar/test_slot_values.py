@@ -51,3 +51,4 @@ def test_the_value_of_a_free_slot_is_said_by_itself_or_with_its_words(tmp_path):
     names = values_of(load_grammar(path), "call", "name")
     assert parse(names, "zorvin").tags == {"name": "zorvin"}
     assert parse(names, "call me zorvin").tags == {"name": "zorvin"}
+    assert parse(names, "me zorvin").tags == {"name": "zorvin"}

@@ -144,10 +144,16 @@ async def change_timer(
     about: str = "",
     is_alarm: bool = False,
     is_last: bool = False,
+    is_new: bool = False,
 ) -> str:
-    """Let a timer, perhaps the one that was set last, run longer, or for another time from now."""
+    """Let a timer, perhaps the one that was set last, run longer, or for another time from now.
+
+    "Set the timer for ten minutes" is another one, unless one of that name runs.
+    """
     keeper = AlarmKeeper.of(context)
     found = meant_ones(keeper, about, is_alarm)
+    if to and not is_alarm and (not found or (is_new and not about)):
+        return await set_timer(context, to, about)
     if is_last:
         found = sorted(found, key=lambda one: one.id)[-1:]
     if not found:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.speech.grammar.words import free_words
+from hri.speech.grammar.words import free_words, slot_name
 from hri.speech.recognizers.ctc.classes import BLANK
 from hri.speech.recognizers.ctc.lattice import Path, Walk
 from hri.speech.recognizers.ctc.likelihood import likelihoods
@@ -28,6 +28,10 @@ BEAM = 12.0
 WHOLE = 4.0
 """Natural log: how much worse a sentence may be than the same one among free words: a breath before
 it or behind it is not a word."""
+
+AS_GOOD = 1.5
+"""Natural log: how much worse listed words behind a free slot may be than the slot to the end:
+"please" is not spelled by its sound."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +66,8 @@ def _whole_first(found: list[Candidate]) -> list[Candidate]:
     one instead of all that have such words around it.
     """
     best = found[0]
+    if slot_name(best.path.words[-1]):
+        return _end_first(found)
     listed = _listed(best)
     if len(listed) == len(best.path.words):
         return found
@@ -70,6 +76,22 @@ def _whole_first(found: list[Candidate]) -> list[Candidate]:
     if whole is None:
         return found
     return [whole, *(one for one in found if _listed(one) != listed)]
+
+
+def _end_first(found: list[Candidate]) -> list[Candidate]:
+    """Candidates, of which the best ends with a free slot; where one that ends with listed words
+    behind it is as good, that one instead.
+    """
+    best, *others = found
+    count = len(best.path.words)
+    ended = [
+        one
+        for one in others
+        if one.path.words[:count] == best.path.words and one.score > best.score - AS_GOOD
+    ]
+    if not ended:
+        return found
+    return [ended[0], *(one for one in others if one is not ended[0])]
 
 
 def _listed(candidate: Candidate) -> tuple[str, ...]:

@@ -50,3 +50,21 @@ def test_a_breath_before_a_sentence_is_not_a_word(weight, said):
     search.advance(scores)
     found = ranked(search, scores, Sounds())
     assert found[0].path.words == said
+
+
+@pytest.mark.parametrize(
+    ("weight", "said"), [(0.0, ("a", "<x.spoken>", "go")), (-9.0, ("a", "<x.spoken>"))]
+)
+def test_listed_words_behind_a_free_slot_are_none_of_it(weight, said):
+    """Where they fit as well as more of the slot does."""
+    graph = dataclasses.replace(
+        word_graph([(0, 1, 3, 0.0), (1, 3, 1, 0.0), (1, 2, 1, 0.0), (2, 3, 0, weight)], 4),
+        words=("go", "<x.spoken>", *WORDS[2:]),
+    )
+    search = Search(compile(graph, Sounds()))
+    heard = spelled("AH", "blank", *["L", "blank"] * 2, "G", "OW")
+    scores = scores_of(heard)
+    search.advance(scores)
+    found = ranked(search, scores, Sounds())
+    assert found[0].path.words == said
+    assert ("a", "<x.spoken>") not in [one.path.words for one in found[1:]]
