@@ -261,6 +261,7 @@ def _stopped(folder: str, who: str, number: signal.Signals) -> tuple[float, floa
             network = Network("wheels", interval=0.02)
             network.add(DriveCommand("wheels"))
             network.connect("board.wish", "wheels.velocity")
+            network.sort()
             context.networks.start(network)
             silent: list[Event] = []
             context.events.subscribe("fleet.silent", silent.append)
@@ -268,10 +269,12 @@ def _stopped(folder: str, who: str, number: signal.Signals) -> tuple[float, floa
                 await context.clock.sleep(0.002)
             begun = time.perf_counter()
             os.kill({"router": router, "driver": driver}[who], number)
-            for is_over in (lambda: base.goal == Twist(), lambda: base.velocity == Twist()):
-                while not is_over():
-                    await context.clock.sleep(0.002)
-                found.append(time.perf_counter() - begun)
+            while base.goal != Twist():
+                await context.clock.sleep(0.002)
+            found.append(time.perf_counter() - begun)
+            while base.velocity != Twist():
+                await context.clock.sleep(0.002)
+            found.append(time.perf_counter() - begun)
             while not silent:
                 await context.clock.sleep(0.01)
             for pid in (driver, router):
