@@ -42,7 +42,7 @@ from hri.hal.resource import Description, Resource
 from hri.net.zenoh.fleet import Fleet
 from hri.net.zenoh.member import Member
 from hri.net.zenoh.remote_slot import RemoteSlot
-from hri.net.zenoh.session import FleetSettings, free_port, opened
+from hri.net.zenoh.session import QUEUE, FleetSettings, free_port, opened
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
@@ -56,7 +56,8 @@ READ = 10
 """Slots of the other robot that the companion reads."""
 DEVICES = (Description("screen", "Hri.OffscreenScreen"), Description("voice", "Hri.SilentVoice"))
 KILLS, CUTS = 10, 50
-ROBOTS, PROCESSES = 100, 4
+CROWDS = {"with a base": (10, 20, 40), "without one": (100,)}
+PROCESSES = 4
 MESSAGES = 100_000
 SEED = 7
 SPEED, STOPS = 0.3, 10
@@ -65,7 +66,10 @@ LOST = {
     "driver frozen": ("driver", signal.SIGSTOP),
     "router killed": ("router", signal.SIGKILL),
 }
-ALONE = {"multicast": {"enabled": False}}
+BY_ROUTER = {
+    "scouting": {"multicast": {"enabled": False}},
+    "transport": {"link": {"tx": {"queue": {"size": {"data": QUEUE}}}}},
+}
 EMPTY = '<BehaviorNetwork name="empty" invocation_interval="1"/>'
 ROOM = "[robot]\nstart = [0, 0]\n"
 BARE = """
@@ -136,14 +140,6 @@ def _seen(folder: str, slots: int, seconds: float) -> tuple[list[float], float, 
     robot = Robot(str(Path(folder, "empty.xml")), "simulated")
     member = Member(robot, FleetSettings("reader"))
     delays: list[float] = []
-    arrive = RemoteSlot.arrive
-
-    def taken(slot: RemoteSlot, value: Any, came: Any) -> None:
-        arrive(slot, value, came)
-        if value is not None:
-            delays.append(time.perf_counter() - value)
-
-    RemoteSlot.arrive = taken  # type: ignore[method-assign, assignment]
     result: list[float] = []
 
     async def watch(context: TaskContext) -> None:
@@ -157,11 +153,26 @@ def _seen(folder: str, slots: int, seconds: float) -> tuple[list[float], float, 
         result.append((psutil.Process().memory_info().rss - memory) / 1e6)
         robot.finish()
 
-    try:
+    with _on_arrival(lambda slot, value: delays.append(time.perf_counter() - value)):
         robot.live_until_over(member.be_in_fleet, watch)
+    return delays, result[0], result[1]
+
+
+@contextmanager
+def _on_arrival(note: Callable[[RemoteSlot, Any], object]) -> Iterator[None]:
+    """Call something with each value that arrives in a slot of another robot."""
+    arrive = RemoteSlot.arrive
+
+    def taken(slot: RemoteSlot, value: Any, came: Any) -> None:
+        arrive(slot, value, came)
+        if value is not None:
+            note(slot, value)
+
+    RemoteSlot.arrive = taken  # type: ignore[method-assign, assignment]
+    try:
+        yield
     finally:
         RemoteSlot.arrive = arrive  # type: ignore[method-assign]
-    return delays, result[0], result[1]
 
 
 def delays(folder: str) -> Iterator[Row]:
@@ -236,18 +247,24 @@ def _driving(settings: FleetSettings, folder: str, pipe: Pipe) -> None:
 
 def _routing(endpoint: str, pipe: Pipe) -> None:
     """A process with a router."""
-    own = {"mode": "router", "listen": {"endpoints": [endpoint]}, "scouting": ALONE}
+    own = {"mode": "router", "listen": {"endpoints": [endpoint]}, **BY_ROUTER}
     session = zenoh.open(zenoh.Config.from_json5(json.dumps(own)))
     pipe.send(os.getpid())
     pipe.recv()
     session.close()  # type: ignore[no-untyped-call]
 
 
+def _client(folder: str) -> tuple[Path, str]:
+    """How programs join the fleet by a router, and where that listens."""
+    file, endpoint = Path(folder, "client.json5"), f"tcp/127.0.0.1:{free_port()}"
+    client = {"mode": "client", "connect": {"endpoints": [endpoint]}, **BY_ROUTER}
+    file.write_text(json.dumps(client))
+    return file, endpoint
+
+
 def _stopped(folder: str, who: str, number: signal.Signals) -> tuple[float, float]:
     """Seconds until a velocity of 0 is asked for, and until the base is at rest, and says why."""
-    file, endpoint = Path(folder, "client.json5"), f"tcp/127.0.0.1:{free_port()}"
-    client = {"mode": "client", "connect": {"endpoints": [endpoint]}, "scouting": ALONE}
-    file.write_text(json.dumps(client))
+    file, endpoint = _client(folder)
     with ExitStack() as stack:
         _, router = stack.enter_context(_process(_routing, endpoint))
         robot = Robot(str(Path(folder, "empty.xml")), str(Path(folder, "bare.xml")))
@@ -330,18 +347,21 @@ class Counter(Behavior):
         self.count.send(float(self._count))
 
 
-def _living_crowd(names: Sequence[str], folder: str, pipe: Pipe) -> None:
+def _living_crowd(
+    names: Sequence[str], folder: str, file: Path, has_base: bool, pipe: Pipe
+) -> None:
     """A process with several robots, a thread each: a simulated base, sensors, and a counter."""
     ended = threading.Event()
 
     def live(name: str) -> None:
         robot = Robot(str(Path(folder, "empty.xml")), str(Path(folder, "bare.xml")))
-        member = Member(robot, FleetSettings(name))
+        member = Member(robot, FleetSettings(name, allows_remote=True, file=file))
 
         async def begin(context: TaskContext) -> None:
-            context.resources.obtain("drive", DriveSystem)
-            for sensor in ("range", "battery"):
-                context.resources.obtain(sensor, Resource)
+            if has_base:
+                context.resources.obtain("drive", DriveSystem)
+                for sensor in ("range", "battery"):
+                    context.resources.obtain(sensor, Resource)
             network = Network("clock", interval=0.1)
             network.add(Counter("counter"))
             network.connect("counter.count", "board.count")
@@ -364,48 +384,49 @@ def _living_crowd(names: Sequence[str], folder: str, pipe: Pipe) -> None:
 
 def crowd(folder: str) -> Iterator[Row]:
     """Robots of several processes, each with a base, sensors and a network of 10 Hz; one reads all
-    of their counters.
+    of their counters. A router is in the middle.
     """
-    names = [f"robot{number}" for number in range(ROBOTS)]
-    context = multiprocessing.get_context("spawn")
-    processes, pipes, pids = [], [], []
-    for number in range(PROCESSES):
-        here, there = context.Pipe()
-        given = (names[number::PROCESSES], folder, there)
-        processes.append(context.Process(target=_living_crowd, args=given, daemon=True))
-        processes[-1].start()
-        pipes.append(here)
-        pids.append(here.recv())
-    robot = Robot(str(Path(folder, "empty.xml")), "simulated")
-    member = Member(robot, FleetSettings("reader"))
+    for what, counts in CROWDS.items():
+        for count in counts:
+            yield from _crowd(folder, count, what)
+
+
+def _crowd(folder: str, count: int, what: str) -> Iterator[Row]:
+    names = [f"robot{number}" for number in range(count)]
+    file, endpoint = _client(folder)
     counts: dict[str, set[float]] = {name: set() for name in names}
     used: list[float] = []
+    with ExitStack() as stack:
+        _, router = stack.enter_context(_process(_routing, endpoint))
+        shares = (names[number::PROCESSES] for number in range(PROCESSES))
+        has_base = what == "with a base"
+        crowds = [_process(_living_crowd, share, folder, file, has_base) for share in shares]
+        pids = [stack.enter_context(one)[1] for one in crowds]
+        robot = Robot(str(Path(folder, "empty.xml")), "simulated")
+        member = Member(robot, FleetSettings("reader", allows_remote=True, file=file))
 
-    async def watch(context: TaskContext) -> None:
-        slots = {name: context.board.slot(f"{name}/count") for name in names}
-        end = context.clock.now() + PATIENCE
-        while any(slot.value is None for slot in slots.values()) and context.clock.now() < end:
-            await context.clock.sleep(0.1)
-        before, begun = _used(pids), time.perf_counter()
-        while time.perf_counter() - begun < SECONDS:
-            for name, slot in slots.items():
-                if slot.value is not None:
-                    counts[name].add(slot.value)
-            await context.clock.sleep(0.02)
-        used.extend([_used(pids) - before, time.perf_counter() - begun])
-        robot.finish()
+        async def watch(context: TaskContext) -> None:
+            slots = {name: context.board.slot(f"{name}/count") for name in names}
+            end = context.clock.now() + PATIENCE
+            while any(slot.value is None for slot in slots.values()) and context.clock.now() < end:
+                await context.clock.sleep(0.1)
+            before, routed, begun = _used(pids), _used([router]), time.perf_counter()
+            for came in counts.values():
+                came.clear()
+            await context.clock.sleep(SECONDS)
+            seconds = time.perf_counter() - begun
+            used.extend([(_used(pids) - before) / seconds, (_used([router]) - routed) / seconds])
+            robot.finish()
 
-    robot.live_until_over(member.be_in_fleet, watch)
-    memory = sum(psutil.Process(pid).memory_info().rss for pid in pids)
-    for pipe in pipes:
-        pipe.send(None)
-    for process in processes:
-        process.join(PATIENCE)
+        with _on_arrival(lambda slot, value: counts[slot.robot].add(value)):
+            robot.live_until_over(member.be_in_fleet, watch)
+        memory = sum(psutil.Process(pid).memory_info().rss for pid in pids)
     lost = sum(max(one) - min(one) + 1 - len(one) if one else math.inf for one in counts.values())
-    share = used[0] / used[1] / ROBOTS
-    yield amount(f"{ROBOTS} robots, one reads all: values lost", lost, "values", at_most(0))
-    yield amount(f"{ROBOTS} robots: processor of each", 100 * share, "% of a core", None)
-    yield amount(f"{ROBOTS} robots: memory of each", memory / ROBOTS / 1e6, "MB", None)
+    who = f"{count} robots {what}"
+    yield amount(f"{who}: values lost in {SECONDS:.0f} s", lost, "values", at_most(0))
+    yield amount(f"{who}: processor of each", 100 * used[0] / count, "% of a core", None)
+    yield amount(f"{who}: router, for each", 100 * used[1] / count, "% of a core", None)
+    yield amount(f"{who}: memory of each", memory / count / 1e6, "MB", None)
 
 
 def _used(pids: Sequence[int]) -> float:
