@@ -453,7 +453,8 @@ def hostile(folder: str) -> Iterator[Row]:
         for number in range(MESSAGES):
             key, payload, sealed = _bad(chance, heard)
             if number % 10:
-                session.put(key, payload, attachment=sealed)
+                block = zenoh.CongestionControl.BLOCK  # so that each arrives
+                session.put(key, payload, attachment=sealed, congestion_control=block)
             else:
                 asked = chance.choice(("hello", "do"))
                 session.get(

@@ -135,6 +135,8 @@ class Robot(BlockingVerbs):
         self._seed = seed
         self._notice = notice
         self.recording: Recording | None = None
+        self.next_app: str | None = None
+        """The app that runs after this one, empty for none; None where nobody would start it."""
         self.runners: list[Runner] = []
         """The app's networks as they run, or ran."""
         self.lived = 0.0

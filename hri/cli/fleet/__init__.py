@@ -13,6 +13,7 @@ COMMANDS: Commands = {
     "say": (asking, "let robots say a text"),
     "hear": (asking, "let robots hear a typed sentence"),
     "run": (asking, "start a task of the app of robots"),
+    "app": (asking, "run another app on robots"),
     "stop": (asking, "stop the bases of robots until they are released"),
     "release": (asking, "let the bases of robots move again"),
 }

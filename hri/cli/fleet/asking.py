@@ -1,4 +1,4 @@
-"""`hri fleet say|hear|run|stop|release`: what robots are asked to do."""
+"""`hri fleet say|hear|run|app|stop|release`: what robots are asked to do."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument("task", help="name of a task of its app")
         about = "what the task takes: numbers, true, false; anything else is a text"
         parser.add_argument("argument", nargs="*", help=about)
+    elif verb == "app":
+        parser.add_argument("app", help="name of an app on its machine")
     add_looking_options(parser)
 
 
@@ -44,7 +46,7 @@ def _arguments(options: argparse.Namespace) -> dict[str, Any]:
         return {"text": options.text}
     if options.verb == "run":
         return {"task": options.task, "arguments": list(map(_value, options.argument))}
-    return {}
+    return {"app": options.app} if options.verb == "app" else {}
 
 
 def _value(text: str) -> Any:

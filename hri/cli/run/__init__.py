@@ -148,6 +148,19 @@ def _run(
     notice: Callable[[str], object] = print,
     beside: Beside = _nobody,
 ) -> int:
+    """Run the app, and those that the fleet asks for instead."""
+    while app := _live(options, ending, notice, beside):
+        options.app = app
+    return 0
+
+
+def _live(
+    options: argparse.Namespace,
+    ending: Ending,
+    notice: Callable[[str], object],
+    beside: Beside,
+) -> str | None:
+    """Let a robot run the app; the next one that it is to run."""
     # Missed ticks are summed up at the end; only failures are logged at once.
     handler = logging.StreamHandler()
     handler.setFormatter(LineFormatter("%(levelname)s - %(message)s"))
@@ -183,6 +196,7 @@ def _run(
     tasks = robot.app.load_tasks()
     studio = studio_of(robot, options) if options.studio else None
     member = _member(robot, options)
+    robot.next_app = "" if member is not None and options.record is None else None
     narrator = Narrator(robot)
     mention_kept(options, narrator)
     hosted = beside(robot)
@@ -205,7 +219,7 @@ def _run(
     if robot.recording is not None:
         robot.recording.plot()
     narrator.summary()
-    return 0
+    return robot.next_app
 
 
 def _member(robot: Robot, options: argparse.Namespace) -> Member | None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import msgspec
@@ -14,6 +16,7 @@ from hri.emotion.behaviors import EmotionModel
 from hri.hal.battery import Battery
 from hri.hal.emergency_stop import EmergencyStop
 from hri.robot import Robot
+from hri.robot.app import load_app
 from hri.speech.behaviors import Listener, Voice
 from hri.task.context import TaskContext
 
@@ -21,6 +24,9 @@ BECAUSE = "another robot or program of the fleet asked for it"
 LONGEST_TEXT = 500
 """Letters."""
 MOST_ARGUMENTS = 20
+FAREWELL = 0.2
+"""Seconds in which the answer gets away before a robot ends."""
+_APP = re.compile(r"[A-Za-z][\w-]{0,63}")
 
 
 class Request(msgspec.Struct, array_like=True, forbid_unknown_fields=True, frozen=True):
@@ -98,6 +104,20 @@ def _run(asked: Asked, arguments: Mapping[str, Any]) -> None:
     asked.robot.tasks.install(app.task(name), *given)
 
 
+async def _app(asked: Asked, arguments: Mapping[str, Any]) -> None:
+    """End the app, and let another one of that machine run instead; only by name, not by path."""
+    robot, name = asked.robot, str(arguments.get("app", ""))
+    if robot.next_app is None:
+        what = "this robot records, or ends with its app"
+        raise HriError(f"{what} - start it with `hri run APP --fleet NAME`")
+    if _APP.fullmatch(name) is None:
+        raise HriError(f'"{name:.60}" is not the name of an app - take one of its machine')
+    await asked.context.blocking(load_app, name)
+    robot.next_app = name
+    end = partial(robot.finish, why=f'the fleet asked for the app "{name}"')
+    asked.context.clock.call_at(asked.context.clock.now() + FAREWELL, end)
+
+
 def _text(arguments: Mapping[str, Any]) -> str:
     text = arguments.get("text")
     if not isinstance(text, str) or not 0 < len(text.strip()) <= LONGEST_TEXT:
@@ -112,5 +132,6 @@ VERBS: Mapping[str, Callable[[Asked, Mapping[str, Any]], object]] = {
     "say": _say,
     "hear": _hear,
     "run": _run,
+    "app": _app,
 }
 """By name; `Member` itself answers `want`."""

@@ -1,16 +1,22 @@
 """`hri fleet`, with robots on the loopback network."""
 
 import json
+import signal
+import subprocess
+import sys
 import threading
+from contextlib import suppress
 
 import pytest
 
 pytest.importorskip("zenoh", reason="the extra zenoh is not installed")
 
 from hri.cli.main import main
+from hri.core.errors import HriError
 from hri.core.token import VARIABLE
 from hri.net.zenoh.fleet import fleet
 from hri.net.zenoh.session import FleetSettings
+from tests.net.conftest import WITHIN
 from tests.net.zenoh.robots import until
 
 
@@ -51,8 +57,50 @@ def test_robots_are_asked(anna, capsys):
     assert "anna: no Voice runs" in capsys.readouterr().err
     assert main(["fleet", "run", "anna", "nonsense"]) == 1
     assert "nonsense" in capsys.readouterr().err
+    assert main(["fleet", "app", "anna", "companion"]) == 1
+    assert "ends with its app" in capsys.readouterr().err
     assert main(["fleet", "stop", "ana"]) == 2
     assert 'no robot "ana"' in capsys.readouterr().err
+
+
+def apps_of(robots):
+    """By robot; one that just ends is left out."""
+    found = {}
+    for name in robots.names():
+        with suppress(HriError):
+            found[name] = robots.ask(name, "state", {})["app"]
+    return found
+
+
+def test_another_app_is_run_instead(tmp_path, monkeypatch):
+    for name in ("first", "second"):
+        (tmp_path / "apps" / name).mkdir(parents=True)
+        (tmp_path / "apps" / name / "app.toml").write_text("networks = []\n")
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    command = [
+        sys.executable,
+        "-m",
+        "hri.cli.main",
+        "run",
+        "first",
+        "--headless",
+        "--fleet",
+        "anna",
+    ]
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL) as running:
+        try:
+            with fleet(FleetSettings()) as robots:
+                assert until(lambda: apps_of(robots) == {"anna": "first"})
+                for wrong in ("third", "../apps/second", str(tmp_path / "apps" / "second")):
+                    with pytest.raises(HriError):
+                        robots.ask("anna", "app", {"app": wrong})
+                assert apps_of(robots) == {"anna": "first"}
+                assert main(["fleet", "app", "anna", "second"]) == 0
+            with fleet(FleetSettings()) as robots:
+                assert until(lambda: apps_of(robots) == {"anna": "second"})
+        finally:
+            running.send_signal(signal.SIGINT)
+        assert running.wait(WITHIN) == 0
 
 
 def test_what_happens_is_printed(anna, capsys):
