@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+
 from hri.behavior.behavior import Context
 from hri.behavior.device import DeviceBehavior
 from hri.behavior.drive_command import DriveCommand as DriveCommand  # programs know it from here
@@ -15,8 +17,9 @@ from hri.behavior.ports import (
     Output,
     Param,
 )
+from hri.core.errors import HriError
 from hri.core.origin import caused_by
-from hri.core.signals import Frame, Pose2D, RangeReading, Twist
+from hri.core.signals import Frame, Pose2D, RangeReading, SoundWindow, Twist
 from hri.hal.audio_level import AudioLevel
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
@@ -24,10 +27,13 @@ from hri.hal.button import Button
 from hri.hal.camera import Camera
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import Odometry
+from hri.hal.drivers.fed_microphone import FedMicrophone
 from hri.hal.joystick import Joystick
 from hri.hal.picture import fitted
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.screen import Screen
+
+log = logging.getLogger("hri.behavior")
 
 
 class CameraFrames(DeviceBehavior):
@@ -201,6 +207,29 @@ class MicrophoneLevel(DeviceBehavior):
     def compute(self, now: float, dt: float) -> None:
         self.level.send(self._audio.level(now))
         self.level_dbfs.send(self._audio.level_dbfs(now))
+
+
+class MicrophoneFeed(DeviceBehavior):
+    """Lets a microphone hear the sound that comes in, such as that of a listener elsewhere."""
+
+    may_do = NOTHING
+    microphone_id = Param("microphone", "id of the microphone, an Hri.FedMicrophone")
+    sound = Input[SoundWindow]("sound", "what it is to hear")
+
+    def start(self, context: Context) -> None:
+        super().start(context)
+        self._microphone = self.obtain(self.microphone_id, FedMicrophone)
+        self._is_refused = False
+
+    def compute(self, now: float, dt: float) -> None:
+        if (window := self.sound.value) is None:
+            return
+        try:
+            self._microphone.feed(window)
+        except HriError as error:
+            if not self._is_refused:
+                log.warning("%s", error)
+            self._is_refused = True
 
 
 class JoystickSticks(DeviceBehavior):

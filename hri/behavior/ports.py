@@ -42,6 +42,7 @@ DATATYPES: dict[str, type] = {
     "boolean": bool,
     "image": signals.Frame,
     "samples": object,
+    "sound": signals.SoundWindow,
     "utterance": signals.Utterance,
     "speech": signals.Speech,
     "prosody": signals.Prosody,

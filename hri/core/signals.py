@@ -161,6 +161,19 @@ class Span:
 
 
 @dataclass(frozen=True, slots=True)
+class SoundWindow:
+    """The last fraction of a second that a microphone heard. One window overlaps the next, so that
+    nothing is missed by who does not see each of them.
+    """
+
+    samples: Samples
+    rate: int
+    """Samples a second."""
+    end: int
+    """Samples that were heard up to its end, from the first one on."""
+
+
+@dataclass(frozen=True, slots=True)
 class Speech:
     """Synthesized speech: what the speaker plays and the lips follow."""
 

@@ -13,7 +13,7 @@ from hri.core import paths
 from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.origin import caused_by, origin
-from hri.core.signals import HeardSlot, Rejection, Speech, Utterance
+from hri.core.signals import HeardSlot, Rejection, SoundWindow, Speech, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
@@ -25,6 +25,7 @@ from hri.speech.grammar_stack import GrammarStack, Layer, Prepare, as_written
 from hri.speech.own_voice_filter import OwnVoiceFilter
 from hri.speech.recognizers.typed import LineDecoder
 from hri.speech.room_noise import RoomListener
+from hri.speech.sound_trail import SoundTrail
 from hri.speech.turn import DOUBTED_FOR, FOLLOW_UP, Doubt, Turn, Wakefulness
 from hri.speech.turn_taking import GOES_ON, Reading, TurnTaking
 from hri.speech.understanding import SILENT_AFTER, STEP, Heard, understand
@@ -102,6 +103,7 @@ class Listener(Behavior):
     push_to_talk = Input[bool](
         "boolean", "hear only while it is true; always without a link", is_optional=True
     )
+    sound = Output[SoundWindow]("sound", "the last 0.2 s that it heard, while it is not deaf")
     utterance = Output[Utterance]("utterance", "accepted speech")
     text = Output[str]("string", "the words of it")
     rule = Output[str]("string", "the rule that allows them")
@@ -149,6 +151,7 @@ class Listener(Behavior):
         self._recognizer = context.resources.obtain(self.recognizer_id, Recognizer)
         microphone = context.resources.obtain(self.microphone_id, Microphone)
         self._ear = microphone.listen(self._recognizer.rate)
+        self._trail = SoundTrail(self._recognizer.rate)
         self._waiting: deque[tuple[Segment, _Piece]] = deque(maxlen=MOST_WAITING)
         self._piece = _Piece()
         self._wakefulness = Wakefulness(self.follow_up)
@@ -335,6 +338,8 @@ class Listener(Behavior):
         is_over = (
             self._ear.has_ended or is_deaf or is_let_go or self._own_voice.begins_to_subtract(now)
         )
+        if not is_deaf:
+            self.sound.send(self._trail.after(samples))
         if is_over and self._recognizer.is_hearing:
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing or segments:

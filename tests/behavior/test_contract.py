@@ -22,6 +22,7 @@ DEVICES = {
     "cliff": "Hri.SimulatedCliffSensor",
     "audio_level": "Hri.AudioLevel",
     "microphone": "Hri.MemoryMicrophone",
+    "fed_microphone": "Hri.FedMicrophone",
     "speaker": "Hri.SilentSpeaker",
     "joystick": "Hri.MemoryJoystick",
     "screen": "Hri.OffscreenScreen",
@@ -40,6 +41,7 @@ PALETTES = {
     "net",
 }
 PARAMETERS = {
+    "Hri.MicrophoneFeed": {"microphone_id": "fed_microphone"},
     "Hri.MalleableBehavior": {"tcp_port": 0},
     "Hri.Share": {"slot": "there"},
     "Hri.Shared": {"slot": "there"},

@@ -9,10 +9,10 @@ def living(tmp_path):
 
     robots = []
 
-    def live(name, links="", **settings):
+    def live(name, links="", devices=(), **settings):
         path = tmp_path / f"{name}.xml"
         path.write_text(NETWORK.format(name=name, links=links))
-        robots.append(Living(FleetSettings(name, **settings), path))
+        robots.append(Living(FleetSettings(name, **settings), path, devices))
         return robots[-1]
 
     yield live

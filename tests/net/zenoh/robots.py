@@ -26,8 +26,8 @@ NETWORK = """
 class Living:
     """A robot of a fleet that lives in a thread."""
 
-    def __init__(self, settings, path):
-        self.robot = Robot(str(path), "simulated", clock=RealClock())
+    def __init__(self, settings, path, devices=()):
+        self.robot = Robot(str(path), "simulated", clock=RealClock(), devices=devices)
         self.member = Member(self.robot, settings)
         self.board = self.robot.board
         self.failed = []
