@@ -46,14 +46,20 @@ def router(tmp_path):
 def client(tmp_path, router):
     """How a program joins the fleet by the router alone, if it trusts this authority."""
 
-    def settings(authority):
-        path, trusted = tmp_path / "client.json5", tmp_path / "authority.pem"
+    def settings(authority, **more):
+        path, trusted = tmp_path / f"client{len(more)}.json5", tmp_path / "authority.pem"
         authority.cert_pem.write_to_path(trusted)
         connect, transport = {"endpoints": [router]}, tls(root_ca_certificate=trusted)
-        path.write_text(configuration("client", connect=connect, transport=transport))
+        path.write_text(configuration("client", connect=connect, transport=transport, **more))
         return {"allows_remote": True, "file": path}
 
     return settings
+
+
+def are_seen(names, **settings):
+    """Whether these robots, and no others, are in a fleet."""
+    with fleet(FleetSettings(**settings)) as found:
+        return until(lambda: found.names() == names)
 
 
 def test_robots_know_each_other_by_a_router_over_tls(living, client):
@@ -63,6 +69,16 @@ def test_robots_know_each_other_by_a_router_over_tls(living, client):
     with fleet(FleetSettings(**client(AUTHORITY))) as found:
         assert until(lambda: found.names() == ["anna", "berta"])
         assert found.ask("anna", "state", {})["app"] == "anna"
+
+
+def test_a_namespace_is_a_fleet_by_itself(living, client):
+    site = client(AUTHORITY, namespace="site7")
+    living("anna", **site)
+    level = living("berta", **site).board.slot("anna/level")
+    living("carla", **client(AUTHORITY))
+    assert until(lambda: level.value == 5.0)
+    assert are_seen(["anna", "berta"], **site)
+    assert are_seen(["carla"], **client(AUTHORITY))
 
 
 def test_who_trusts_another_authority_comes_not_in(living, client):
