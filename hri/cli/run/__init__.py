@@ -24,6 +24,7 @@ from hri.cli.terminal.streams import unfailing_output
 from hri.conversation.memory_keeper import PEOPLE_FILE
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError, NotAvailable
+from hri.core.quoting import message_line
 from hri.core.realtime import become_realtime
 from hri.drive.behaviors import CommandGate
 from hri.emotion.persistence import memory_file
@@ -148,10 +149,22 @@ def _run(
     notice: Callable[[str], object] = print,
     beside: Beside = _nobody,
 ) -> int:
-    """Run the app, and those that the fleet asks for instead."""
-    while app := _live(options, ending, notice, beside):
-        options.app = app
-    return 0
+    """Run the app, and those that the fleet asks for instead; after one that cannot run, the one
+    before it again.
+    """
+    before = options.app
+    while True:
+        try:
+            app = _live(options, ending, notice, beside)
+        except HriError as error:
+            if options.app == before:
+                raise
+            print(message_line(str(error)), file=sys.stderr)
+            options.app = before
+            continue
+        if not app:
+            return 0
+        before, options.app = options.app, app
 
 
 def _live(

@@ -73,9 +73,9 @@ def apps_of(robots):
 
 
 def test_another_app_is_run_instead(tmp_path, monkeypatch):
-    for name in ("first", "second"):
+    for name, tasks in (("first", []), ("second", []), ("broken", ["missing"])):
         (tmp_path / "apps" / name).mkdir(parents=True)
-        (tmp_path / "apps" / name / "app.toml").write_text("networks = []\n")
+        (tmp_path / "apps" / name / "app.toml").write_text(f"networks = []\ntasks = {tasks}\n")
     monkeypatch.setenv("HRI_PATH", str(tmp_path))
     command = [
         sys.executable,
@@ -87,7 +87,8 @@ def test_another_app_is_run_instead(tmp_path, monkeypatch):
         "--fleet",
         "anna",
     ]
-    with subprocess.Popen(command, stdout=subprocess.DEVNULL) as running:
+    silent = subprocess.DEVNULL
+    with subprocess.Popen(command, stdout=silent, stderr=subprocess.PIPE, text=True) as running:
         try:
             with fleet(FleetSettings()) as robots:
                 assert until(lambda: apps_of(robots) == {"anna": "first"})
@@ -97,6 +98,9 @@ def test_another_app_is_run_instead(tmp_path, monkeypatch):
                 assert apps_of(robots) == {"anna": "first"}
                 assert main(["fleet", "app", "anna", "second"]) == 0
             with fleet(FleetSettings()) as robots:
+                assert until(lambda: apps_of(robots) == {"anna": "second"})
+                assert main(["fleet", "app", "anna", "broken"]) == 0
+                assert any("no Python file is there" in line for line in running.stderr)
                 assert until(lambda: apps_of(robots) == {"anna": "second"})
         finally:
             running.send_signal(signal.SIGINT)
