@@ -401,7 +401,7 @@ def _range(sensor: RangeSensor, pose: Pose3D, now: float) -> topics.Range:
 
 
 def _person(person: Person, attended: str) -> topics.SeenPerson:
-    box = person.pose.box
+    box = person.pose.box or person.body
     return {
         "id": person.id,
         "name": person.name,
@@ -410,6 +410,8 @@ def _person(person: Person, attended: str) -> topics.SeenPerson:
         "engagement": person.engagement,
         "is_looking": person.is_looking,
         "is_attended": person.id == attended,
+        "has_face": person.has_face,
+        "since": _short(person.since),
         "box": [round(part) for part in (box.x, box.y, box.width, box.height)] if box else None,
     }
 

@@ -80,7 +80,8 @@ class Moods(TypedDict):
 
 
 class SeenPerson(TypedDict):
-    """Someone in view: meters, radians to the left; the box in pixels: left, top, width, height."""
+    """Someone in view: meters, radians to the left, seconds of the robot's clock; the box of the
+    face, or of the body where that alone is seen, in pixels: left, top, width, height."""
 
     id: str
     name: str
@@ -89,6 +90,8 @@ class SeenPerson(TypedDict):
     engagement: str
     is_looking: bool
     is_attended: bool
+    has_face: bool
+    since: Number
     box: list[int] | None
 
 

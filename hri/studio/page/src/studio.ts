@@ -226,6 +226,12 @@ function press(id: string, isPressed: boolean): void {
   element(id).setAttribute("aria-pressed", String(isPressed));
 }
 
+/** What of someone turns to the robot. */
+function view(person: SeenPerson): string {
+  if (!person.has_face) return "from behind";
+  return person.is_looking ? "looks at the robot" : "looks away";
+}
+
 function drawPeople(persons: SeenPerson[], isOn: boolean): void {
   const { canvas } = pictures.camera;
   const boxes = element("boxes");
@@ -237,12 +243,12 @@ function drawPeople(persons: SeenPerson[], isOn: boolean): void {
     const [x, y, width, height] = one.box! as [number, number, number, number];
     const box = document.createElementNS("http://www.w3.org/2000/svg", "rect");
     for (const [name, value] of Object.entries({ x, y, width, height })) box.setAttribute(name, String(value));
-    box.setAttribute("class", one.is_looking ? "looking" : "");
+    box.setAttribute("class", one.is_looking ? "looking" : one.has_face ? "" : "behind");
     return box;
   }));
   list(element("people"), persons, (one) => ({
     text: one.name || one.id,
-    detail: [one.distance === null ? "" : `${one.distance.toFixed(1)} m`, one.is_looking ? "looks at the robot" : "looks away", one.engagement].filter(Boolean).join(", "),
+    detail: [one.distance === null ? "" : `${one.distance.toFixed(1)} m`, view(one), one.engagement].filter(Boolean).join(", "),
     kind: one.is_attended ? "attended" : "",
   }));
 }

@@ -59,7 +59,7 @@ export interface Moods {
   reasons: Reason[];
 }
 
-/** Someone in view: meters, radians to the left; the box in pixels: left, top, width, height. */
+/** Someone in view: meters, radians to the left, seconds of the robot's clock; the box of the face, or of the body where that alone is seen, in pixels: left, top, width, height. */
 export interface SeenPerson {
   id: string;
   name: string;
@@ -68,6 +68,8 @@ export interface SeenPerson {
   engagement: string;
   is_looking: boolean;
   is_attended: boolean;
+  has_face: boolean;
+  since: number | null;
   box: number[] | null;
 }
 
