@@ -5,11 +5,17 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+import pytest
 
 from apps.companion.hands import BESIDE, pointed_at
+from hri.core.models import folder_of
 from hri.core.signals import FoundObject, Hand
 from hri.robot import Robot
-from tests.apps.test_companion import Visit
+from hri.simulation.world import SimulatedWorld
+from hri.vision.face_models import FACE, HAND, PALM
+from tests.apps.test_companion import SMALL_SCREEN, Visit
+
+FACE_MODELS = folder_of(FACE.name)
 
 
 def showing(*shown: tuple[float, str, dict[str, object]]) -> Callable[[Robot], None]:
@@ -39,6 +45,21 @@ def test_it_greets_back_who_waves_but_not_at_each_wave_and_no_hand_drives_it() -
     assert visit.said()[0][:2] in ("Hi", "He")
     first, last = visit.pose_at(1.0), visit.poses[-1][1]
     assert math.hypot(last.x - first.x, last.y - first.y) < 0.02
+
+
+@pytest.mark.skipif(
+    not all((FACE_MODELS / part.name).is_file() for part in (PALM, HAND)),
+    reason="the networks of hands are not here: hri models fetch face",
+)
+def test_it_sees_a_hand_that_waves_and_greets_back() -> None:
+    def wave(robot: Robot) -> None:
+        robot.resources.obtain("world", SimulatedWorld).person.show("wave", 7.0)
+
+    visit = Visit(11, {}, prepare=wave, devices=(SMALL_SCREEN,))
+    (seen,) = visit.named("hand.waved")
+    assert 7.0 < seen.time < 9.5
+    said = [one.properties["text"] for one in visit.named("speech.said") if one.time > seen.time]
+    assert said[0][:2] in ("Hi", "He")
 
 
 def test_an_open_hand_stops_it_while_it_drives() -> None:
