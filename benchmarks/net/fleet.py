@@ -56,7 +56,8 @@ READ = 10
 """Slots of the other robot that the companion reads."""
 DEVICES = (Description("screen", "Hri.OffscreenScreen"), Description("voice", "Hri.SilentVoice"))
 KILLS, CUTS = 10, 50
-CROWDS = {"with a base": (10, 20, 40), "without one": (100,)}
+CROWDS = ((10, True), (20, True), (40, True), (100, False))
+"""Robots, and whether each has a base."""
 PROCESSES = 4
 MESSAGES = 100_000
 SEED = 7
@@ -386,12 +387,11 @@ def crowd(folder: str) -> Iterator[Row]:
     """Robots of several processes, each with a base, sensors and a network of 10 Hz; one reads all
     of their counters. A router is in the middle.
     """
-    for what, counts in CROWDS.items():
-        for count in counts:
-            yield from _crowd(folder, count, what)
+    for count, has_base in CROWDS:
+        yield from _crowd(folder, count, has_base)
 
 
-def _crowd(folder: str, count: int, what: str) -> Iterator[Row]:
+def _crowd(folder: str, count: int, has_base: bool) -> Iterator[Row]:
     names = [f"robot{number}" for number in range(count)]
     file, endpoint = _client(folder)
     counts: dict[str, set[float]] = {name: set() for name in names}
@@ -399,7 +399,6 @@ def _crowd(folder: str, count: int, what: str) -> Iterator[Row]:
     with ExitStack() as stack:
         _, router = stack.enter_context(_process(_routing, endpoint))
         shares = (names[number::PROCESSES] for number in range(PROCESSES))
-        has_base = what == "with a base"
         crowds = [_process(_living_crowd, share, folder, file, has_base) for share in shares]
         pids = [stack.enter_context(one)[1] for one in crowds]
         robot = Robot(str(Path(folder, "empty.xml")), "simulated")
@@ -422,7 +421,7 @@ def _crowd(folder: str, count: int, what: str) -> Iterator[Row]:
             robot.live_until_over(member.be_in_fleet, watch)
         memory = sum(psutil.Process(pid).memory_info().rss for pid in pids)
     lost = sum(max(one) - min(one) + 1 - len(one) if one else math.inf for one in counts.values())
-    who = f"{count} robots {what}"
+    who = f"{count} robots {'with a base' if has_base else 'without one'}"
     yield amount(f"{who}: values lost in {SECONDS:.0f} s", lost, "values", at_most(0))
     yield amount(f"{who}: processor of each", 100 * used[0] / count, "% of a core", None)
     yield amount(f"{who}: router, for each", 100 * used[1] / count, "% of a core", None)

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gc
 import random
 import time
 
@@ -122,11 +123,12 @@ def test_a_hesitation_anywhere_changes_nothing(companion, seed, place):
 @given(st.lists(st.sampled_from([*list(LITTLE_WORDS)[::4], "go", "turn", "left"]), max_size=60))
 @settings(max_examples=100, deadline=None)
 def test_any_heap_of_words_is_answered_in_time(companion, words):
-    seconds = []
-    for _ in range(2):  # The first one may build a table, or collect garbage.
+    gc.disable()  # The garbage of other tests is not what is measured.
+    try:
         start = time.process_time()
         found = nearest(companion, " ".join(words))
-        seconds.append(time.process_time() - start)
-    assert min(seconds) < 1.0
+        assert time.process_time() - start < 1.0
+    finally:
+        gc.enable()
     if found is not None:
         assert parse(companion, found.parse.text) is not None

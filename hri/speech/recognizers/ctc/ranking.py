@@ -58,7 +58,7 @@ def ranked(search: Search, scores: Floats, lexicon: Pronouncing) -> list[Candida
         for path, total in zip(paths, sums, strict=True)
     ]
     best = sorted(found, key=lambda candidate: -candidate.score)[:MOST_REPORTED]
-    return _whole_first(best)
+    return _end_first(best) if slot_name(best[0].path.words[-1]) else _whole_first(best)
 
 
 def _whole_first(found: list[Candidate]) -> list[Candidate]:
@@ -66,8 +66,6 @@ def _whole_first(found: list[Candidate]) -> list[Candidate]:
     one instead of all that have such words around it.
     """
     best = found[0]
-    if slot_name(best.path.words[-1]):
-        return _end_first(found)
     listed = _listed(best)
     if len(listed) == len(best.path.words):
         return found
