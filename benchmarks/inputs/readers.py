@@ -62,6 +62,11 @@ READERS: dict[str, Reader] = {
     "face settings": Reader(calls.face_settings, _shipped("faces/robot/face.toml"), "face.toml"),
     "face weights": Reader(calls.face_weights, good.weights, "weights.csv"),
     "formula": Reader(calls.formula, good.formulas, "formula.txt"),
+    "facial expressions": _named(
+        "hri.vision.expressions.expression_patterns:load_expression_patterns",
+        _shipped("config/expressions.toml"),
+        "e.toml",
+    ),
     "forms": Reader(calls.forms, good.forms, "forms.toml"),
     "grammar": _named(
         "hri.speech.grammar:load_grammar",

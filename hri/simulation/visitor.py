@@ -28,6 +28,10 @@ class Visitor:
         """Shake the head."""
         self._person.shake(self._clock.now() + after)
 
+    def smile(self, after: float = 0.0) -> None:
+        """Smile for a while."""
+        self._person.move("smile", self._clock.now() + after)
+
     def go(self, x: float, y: float, after: float = 0.0) -> None:
         """Walk to a place of the room, in meters."""
         self._person.go(x, y, self._clock.now() + after)

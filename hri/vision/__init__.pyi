@@ -4,6 +4,7 @@ from .behaviors import (
     PersonTracker as PersonTracker,
 )
 from .camera_view import CameraView as CameraView
+from .expressions.expression_behaviors import FacialExpressions as FacialExpressions
 from .gestures.gesture_behaviors import HeadGestures as HeadGestures
 from .hands.hand_behaviors import HandGestures as HandGestures
 from .head_pose import head_pose as head_pose

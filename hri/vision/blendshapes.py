@@ -36,6 +36,8 @@ SMILE_SPAN = 0.09
 the next ones are as the network shows drawn faces; it is shy of brows that are drawn down."""
 BROWS_UP, BROWS_DOWN = 0.035, 0.02
 """How far brows go up and down, all the way."""
+BROWS_SMILE, SMILE_FROWNS = 0.4, 0.3
+"""How much of a smile the network makes of raised brows, and of lowered ones of a smile."""
 SHUT = 0.25
 """By which part eyes that shut become narrower than they are when open."""
 ADAPTATION = 20.0
@@ -90,9 +92,10 @@ class Expressiveness:
         narrowed = 1 - now[2] / max(self._rest[2], 1e-6)
         pace = ADAPTATION if time - self._begun > FIRST_LOOK else FIRST_LOOK / 3
         self._rest = self._rest + (now - self._rest) * (1 - math.exp(-elapsed / pace))
+        smile, brows = smile / SMILE_SPAN, brows / (BROWS_UP if brows > 0 else BROWS_DOWN)
         return Countenance(
-            smile=_within(smile / SMILE_SPAN, 0.0, 1.0),
-            brows=_within(brows / (BROWS_UP if brows > 0 else BROWS_DOWN), -1.0, 1.0),
+            smile=_within(smile - BROWS_SMILE * _within(brows, 0.0, 1.0), 0.0, 1.0),
+            brows=_within(max(brows, min(0.0, brows + SMILE_FROWNS * smile)), -1.0, 1.0),
             blink=_within(narrowed / SHUT, 0.0, 1.0),
         )
 

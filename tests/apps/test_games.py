@@ -3,11 +3,14 @@
 import pytest
 
 from hri.core import FakeClock
+from hri.core.models import folder_of
 from hri.robot import Robot
+from hri.robot.verbs import SHOWN
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.testing import live_for
 from hri.testing.dialogues import TYPED
-from tests.apps.test_companion import SEEING
+from hri.vision.face_models import FACE, MESH
+from tests.apps.test_companion import SEEING, SMALL_SCREEN
 
 DEEDS = {"nod your head": "head.nodded", "shake your head": "head.shaken"}
 
@@ -87,6 +90,31 @@ def test_words_end_simon_says_and_get_their_answer(line, last):
 def test_the_mirror_ends_when_nothing_is_seen_for_long():
     said = played("copy me", lambda words: "" if "Nod" in words else None)
     assert said[1:] == ["I see nothing more to copy. That was fun!"]
+
+
+@pytest.mark.skipif(
+    not (folder_of(FACE.name) / MESH.name).is_file(), reason="no face mesh: hri models fetch face"
+)
+def test_the_mirror_smiles_while_the_person_smiles():
+    robot = Robot("companion", "simulated", clock=FakeClock(), devices=(SMALL_SCREEN,), seed=1)
+    robot.visitor.say("copy me", after=6.0)
+    robot.events.subscribe("speech.finished", lambda event: robot.visitor.smile(after=1.0))
+    shown = {}
+
+    def note(time=0.0):
+        expression = robot.board.slot(SHOWN).value
+        shown[time] = expression and expression.label
+        robot.clock.call_at(time + 0.1, lambda: note(time + 0.1))
+
+    note()
+    events = live_for(robot, 15.0, *robot.app.load_tasks())
+    began, over = (
+        next(event.time for event in events if event.name == name)
+        for name in ("person.expressed", "person.relaxed")
+    )
+    assert 1.0 < over - began < 3.0
+    assert {label for time, label in shown.items() if began + 0.2 < time < over - 0.1} == {"happy"}
+    assert not any(label for time, label in shown.items() if time > over + 0.2)
 
 
 def test_the_mirror_nods_when_the_person_nods():

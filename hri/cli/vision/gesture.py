@@ -1,5 +1,5 @@
-"""`hri gesture`: reports nods, shakes and gestures of hands in a video or from a camera, and nods
-and shakes in series of head poses."""
+"""`hri gesture`: reports nods, shakes, gestures of hands and facial expressions in a video or from
+a camera, and nods and shakes in series of head poses."""
 
 from __future__ import annotations
 
@@ -29,6 +29,12 @@ from hri.core.signals import Frame, HandGesture, HeadGesture, Image
 from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
+from hri.vision.expressions.expression_patterns import (
+    FILE as EXPRESSIONS,
+    ExpressionPattern,
+    load_expression_patterns,
+)
+from hri.vision.expressions.expression_recognizer import FacialExpression, PeopleExpressions
 from hri.vision.gestures.gesture_file import chosen
 from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, load_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
@@ -40,7 +46,7 @@ T = TypeVar("T")
 SHOWN = 1.5
 """Seconds that a gesture stays in the picture."""
 
-Gesture = HeadGesture | HandGesture
+Gesture = HeadGesture | HandGesture | FacialExpression
 Teller = Callable[[Gesture, str], None]
 """Prints a gesture, with its file if there are several."""
 
@@ -61,6 +67,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--hands", action="store_true",
         help=f"report gestures of hands, too; with --check and --list, of config/{HANDS}",
     )  # fmt: skip
+    add(
+        "--expressions", action="store_true",
+        help=f"report facial expressions, too; with --check and --list, of config/{EXPRESSIONS}",
+    )  # fmt: skip
     add("--json", action="store_true", help="print one line of JSON per gesture")
     add("--overlay", type=Path, metavar="FILM.mp4", help="write a film with the results drawn in")
     add(
@@ -77,6 +87,10 @@ def run(options: argparse.Namespace) -> int:
         hands = load_hand_patterns(path)
         _examined(options, path or paths.find("config", HANDS), hands, _hand_lines)
         return 0
+    if options.expressions and (options.list or options.check):
+        faces, file = load_expression_patterns(path), path or paths.find("config", EXPRESSIONS)
+        _examined(options, file, faces, _face_lines, "expression")
+        return 0
     known = load_patterns(path)
     if options.list or options.check:
         _examined(options, path or paths.find("config", FILE), known, _head_lines)
@@ -84,8 +98,9 @@ def run(options: argparse.Namespace) -> int:
     patterns = list(known.values()) if options.patterns is not None else chosen(known, ANSWERS)
     tell = _tell_json if options.json else _tell
     if options.pose:
-        if options.overlay or options.video or options.images or options.camera or options.hands:
-            words = "leave out the other source, --overlay and --hands"
+        others = (options.overlay, options.video, options.images, options.camera)
+        if any(others) or options.hands or options.expressions:
+            words = "leave out the other source, --overlay, --hands and --expressions"
             raise HriError(f"--pose takes no pictures - {words}")
         with waiting("looking at the poses"):
             return _run_poses(options.pose, patterns, options.prompted, tell)
@@ -154,13 +169,14 @@ def _seen(
     hands = load_hand_tracker(view) if options.hands else None
     see = seen_with(hands, PeopleTracker(detectors, view))
     recognizer, of_hands = PeopleGestures(patterns), PeopleHands(load_hand_patterns().values())
+    of_faces = PeopleExpressions(load_expression_patterns().values() if options.expressions else ())
     recent: list[Gesture] = []
     begun: float | None = None
     for frame in frames:
         begun = frame.time if begun is None else begun
         people = see(frame)
         made: list[Gesture] = [*recognizer.update(people, options.prompted)]
-        for gesture in made + of_hands.update(people):
+        for gesture in made + of_hands.update(people) + of_faces.update(people):
             recent.append(gesture)
             tell(_since(begun, gesture), "")
         if options.overlay is None:
@@ -177,22 +193,31 @@ def _since(begin: float, gesture: Gesture) -> Gesture:
 
 def _tell(gesture: Gesture, file: str) -> None:
     if isinstance(gesture, HandGesture):
-        how = f"{gesture.hand.side} hand"
+        about = f"{gesture.hand.side} hand, {gesture.latency:.2f} s after it began"
+    elif isinstance(gesture, FacialExpression):
+        about = f"{'over' if gesture.is_over else 'shown'}, {gesture.seconds:.2f} s after it began"
     else:
         how = f"confidence {gesture.confidence:.2f}"
-    about = f"{how}, {gesture.latency:.2f} s after it began"
+        about = f"{how}, {gesture.latency:.2f} s after it began"
     words = [file, f"{gesture.time:8.2f} s", gesture.person, f"{gesture.kind:<8}", about]
     report("  ".join(word for word in words if word), flush=True)
 
 
 def _tell_json(gesture: Gesture, file: str) -> None:
-    told: dict[str, str | float] = {"file": file} if file else {}
-    told |= {"t": round(gesture.time, 3), "gesture": gesture.kind, "person": gesture.person}
+    told = {"file": file} if file else {}
+    print(json.dumps(told | {"t": round(gesture.time, 3), **_fields(gesture)}), flush=True)
+
+
+def _fields(gesture: Gesture) -> dict[str, str | float]:
+    who = {"person": gesture.person}
+    if isinstance(gesture, FacialExpression):
+        seconds = round(gesture.seconds, 3)
+        return {"expression": gesture.kind, **who, "is_over": gesture.is_over, "seconds": seconds}
+    latency = {"latency_s": round(gesture.latency, 3)}
     if isinstance(gesture, HandGesture):
-        told["hand"] = gesture.hand.side
-    else:
-        told["confidence"] = round(gesture.confidence, 3)
-    print(json.dumps(told | {"latency_s": round(gesture.latency, 3)}), flush=True)
+        return {"gesture": gesture.kind, **who, "hand": gesture.hand.side, **latency}
+    confidence = round(gesture.confidence, 3)
+    return {"gesture": gesture.kind, **who, "confidence": confidence, **latency}
 
 
 def _examined(
@@ -200,13 +225,14 @@ def _examined(
     path: Path,
     known: Mapping[str, T],
     lines: Callable[[T], Iterable[str]],
+    noun: str = "gesture",
 ) -> None:
     """Report that a file of gestures is right, and on request what is in it."""
     if options.list:
         for pattern in known.values():
             for line in lines(pattern):
                 report(line)
-    count = f"{len(known)} gesture{'s' * (len(known) != 1)}"
+    count = f"{len(known)} {noun}{'s' * (len(known) != 1)}"
     report(f"{path}: {count}, fine")
 
 
@@ -219,3 +245,8 @@ def _head_lines(pattern: Pattern) -> Iterator[str]:
 def _hand_lines(pattern: HandPattern) -> Iterator[str]:
     yield f"{pattern.gesture:<10} {pattern.event:<18} {pattern.about}"
     yield f"{'':<10} {pattern.words()}"
+
+
+def _face_lines(pattern: ExpressionPattern) -> Iterator[str]:
+    yield f"{pattern.name:<14} {pattern.about}"
+    yield f"{'':<14} {pattern.words()}"

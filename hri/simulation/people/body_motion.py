@@ -243,6 +243,21 @@ def still(time: float, seed: int = 0) -> Posture:
     return REST
 
 
+def smile(time: float, seed: int = 0) -> Posture:
+    """A smile that lasts for a while."""
+    return Posture(smile=_held(time, MOTIONS["smile"].duration, 0.3))
+
+
+def raise_brows(time: float, seed: int = 0) -> Posture:
+    """The brows go up, and down again."""
+    return Posture(brows=_held(time, MOTIONS["raise_brows"].duration, 0.2))
+
+
+def lower_brows(time: float, seed: int = 0) -> Posture:
+    """The brows are drawn together and down."""
+    return Posture(brows=-_held(time, MOTIONS["lower_brows"].duration, 0.3))
+
+
 @dataclass(frozen=True, slots=True)
 class BodyMotion:
     """Something that people do."""
@@ -269,10 +284,14 @@ MOTIONS: Mapping[str, BodyMotion] = {
     "tilt": BodyMotion(2.2, tilt),
     "lean": BodyMotion(3.5, lean),
     "still": BodyMotion(3.0, still),
+    "smile": BodyMotion(2.5, smile),
+    "raise_brows": BodyMotion(1.2, raise_brows),
+    "lower_brows": BodyMotion(2.0, lower_brows),
 }
 """By name."""
 GESTURES = ("nod", "shake")
-DISTRACTORS = tuple(name for name in MOTIONS if name not in GESTURES)
+EXPRESSIONS = ("smile", "raise_brows", "lower_brows")
+DISTRACTORS = tuple(name for name in MOTIONS if name not in GESTURES + EXPRESSIONS)
 """What must not be taken for a gesture."""
 
 

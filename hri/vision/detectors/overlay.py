@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Protocol
 
 import cv2
 import numpy as np
@@ -13,8 +14,6 @@ from hri.core.signals import (
     FaceBox,
     FoundObject,
     Hand,
-    HandGesture,
-    HeadGesture,
     HeadPose,
     Image,
     Motion,
@@ -43,10 +42,20 @@ ARROW = 3.0
 FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
+class Gesture(Protocol):
+    """What someone did, with head, hand or face."""
+
+    @property
+    def kind(self) -> str: ...
+
+    @property
+    def person(self) -> str: ...
+
+
 def draw(
     image: Image,
     people: People | None,
-    gestures: Sequence[HeadGesture | HandGesture] = (),
+    gestures: Sequence[Gesture] = (),
     has_landmarks: bool = True,
 ) -> Image:
     """A copy of the picture, uint8 [height, width, 3], RGB, with everyone in it marked.

@@ -1,4 +1,4 @@
-"""Files of gestures of head and hands: a table of each, by its name."""
+"""Files of gestures of head and hands, and of facial expressions: a table of each, by its name."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from hri.core.toml import Table, load_toml
 T = TypeVar("T")
 
 HEAD_GESTURE, HAND_GESTURE = "head gesture", "hand gesture"
+FACIAL_EXPRESSION = "facial expression"
 MOST_GESTURES = 50
 
 
@@ -23,7 +24,7 @@ def read_gestures(path: Path, kind: str, gesture: Callable[[str, Table], T]) -> 
     table = load_toml(path, f"file of {kind}s")
     names = table.keys()
     if not 0 < len(names) <= MOST_GESTURES:
-        raise table.error(None, f"{len(names)} gestures", f"write 1 to {MOST_GESTURES}")
+        raise table.error(None, f"{len(names)} {kind}s", f"write 1 to {MOST_GESTURES}")
     found = {name: gesture(name, table.table(name)) for name in names}
     table.finish()
     return found

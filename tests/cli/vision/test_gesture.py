@@ -14,6 +14,7 @@ from hri.core.errors import HriError
 from hri.core.signals import Hand, HandGesture
 from hri.simulation.people.body_motion import Posture, nod_angles
 from hri.simulation.people.scripted_film import Film, Role
+from hri.vision.expressions.expression_recognizer import FacialExpression, PeopleExpressions
 from hri.vision.hands.hand_gestures import PeopleHands
 from hri.vision.pose_file import Remarks, read_poses
 
@@ -223,6 +224,32 @@ def test_the_patterns_of_hands_are_checked_and_listed(tmp_path, capsys):
     bad = file(tmp_path, "bad.toml", ["[hi]", 'event = "hand.hi"', 'shape = "opn"', "hold_s = 1"])
     assert main(["gesture", "--check", "--hands", "--patterns", str(bad)]) == 2
     assert 'bad.toml:3:1: shape is "opn" - did you mean "open"?' in capsys.readouterr().err
+
+
+def test_the_patterns_of_expressions_are_checked_and_listed(tmp_path, capsys):
+    assert main(["gesture", "--check", "--expressions"]) == 0
+    assert "expressions.toml: 5 expressions, fine" in capsys.readouterr().out
+    assert main(["gesture", "--list", "--expressions"]) == 0
+    assert "blink from 0.5 until 0.3, over within 0.5 s" in capsys.readouterr().out
+    bad = file(tmp_path, "bad.toml", ["[grin]", 'measure = "smle"'])
+    assert main(["gesture", "--check", "--expressions", "--patterns", str(bad)]) == 2
+    assert 'bad.toml:2:1: measure is "smle" - did you mean "smile"?' in capsys.readouterr().err
+
+
+def test_an_expression_is_told_when_it_shows_and_when_it_is_over(monkeypatch, tmp_path, capsys):
+    told = [
+        FacialExpression("smile", 0.2, "p1", 1.5, is_over=True),
+        FacialExpression("smile", 0.0, "p1", 0.3),
+    ]
+    monkeypatch.setattr(PeopleExpressions, "update", lambda *_: [told.pop()] if told else [])
+    for number in range(2):
+        cv2.imwrite(str(tmp_path / f"{number}.png"), np.full((120, 160, 3), 90, np.uint8))
+    assert main(["gesture", "--images", str(tmp_path), "--expressions", "--json"]) == 0
+    shown, over = map(json.loads, capsys.readouterr().out.splitlines())
+    assert shown == {
+        "t": 0.0, "expression": "smile", "person": "p1", "is_over": False, "seconds": 0.3
+    }  # fmt: skip
+    assert (over["is_over"], over["seconds"]) == (True, 1.5)
 
 
 def test_a_gesture_of_a_hand_is_told_with_whose_it_is(monkeypatch, tmp_path, capsys):

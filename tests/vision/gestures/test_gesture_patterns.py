@@ -75,7 +75,7 @@ def test_a_mistake_is_told_with_its_place(
 def test_a_file_without_gestures_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "gestures.toml"
     path.write_text("")
-    with pytest.raises(AuthoringError, match="0 gestures"):
+    with pytest.raises(AuthoringError, match="0 head gestures"):
         load_patterns(path)
     path.write_text('[nod]\naxis = "pitch"\n')
     with pytest.raises(AuthoringError, match="0 rows"):

@@ -159,7 +159,7 @@ def test_a_wave_of_any_kind_never_points_nor_answers(
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "0 gestures"),
+        ("", "0 hand gestures"),
         ('[a]\nevent = "head.nodded"\nshape = "open"\nhold_s = 1', 'begin it with "hand."'),
         ('[a]\nevent = "hand.a"\nshape = "claw"\nhold_s = 1', "claw"),
         ('[a]\nevent = "hand.a"\nshape = "open"', "write hold_s, or swings"),
