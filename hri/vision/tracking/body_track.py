@@ -59,15 +59,18 @@ SHARPNESS, NEAR_BEST = 0.04, 0.5
 """How much less a place may fit to count a third as much, and sizes of the face to the best."""
 RIVAL_APART, RIVAL_NEAR = 1.2, 0.08
 """Sizes of the face to another place that fits as well, and by how little it may fit less."""
-MOMENT, HEAD_AWAY, HEAD_GROWN = 0.3, 0.8, math.log(1.5)
-"""Seconds for which a body shows where its face must be: sizes of the face by which that may be
-elsewhere, and logarithm of the ratio of sizes."""
+MOMENT, HEAD_AWAY = 0.3, 0.8
+"""Seconds for which a body shows where its face must be, and sizes of the face by which that may be
+elsewhere."""
+APPROACH, HEAD_GROWN = 1.0, math.log(1.5)
+"""Seconds in which nobody comes so near that their face grows by more, logarithm of a ratio."""
 OUTLINE_AWAY, OUTLINE_GROWN = 1.0, math.log(1.6)
 """The same of a body that was found by its outline."""
 OUTLINE_PART = 0.25
 """Part of the way to the size and height of an outline, which are some 20 % off."""
 TAKEN, TAKEN_SIZE = 0.9, math.log(1.5)
-"""Sizes of the face, and logarithm of a ratio of sizes, within which a place is someone else's."""
+"""Sizes of the face within which a place is someone else's or behind them, and logarithm of the
+ratio of sizes from which on it is before them."""
 BESIDE = 2.5
 """Sizes of the face to the next one, within which clothes may be those of someone else."""
 PACE_SMOOTHING = 0.25
@@ -125,6 +128,10 @@ class BodyTrack:
         known = rise if math.isnan(self._rise) else self._rise
         self._rise = known + RISING * (rise - known)
 
+    def is_behind(self, other: Place) -> bool:
+        """Whether someone there is much nearer to the camera."""
+        return self.place is not None and math.log(other.breadth / self.place.breadth) > TAKEN_SIZE
+
     def is_near(self, time: float) -> bool:
         """Whether it was seen so lately that it is looked for only near there."""
         return time - self.seen <= WIDE_SOON
@@ -143,12 +150,14 @@ class BodyTrack:
 
         Who has just lost their face may have moved in a jerk: their body does not say so yet.
         """
-        is_followed = self.seen - self.rested > MOMENT
-        if self.place is None or not is_followed or time - self.seen > MOMENT:
+        missing, is_followed = time - self.seen, self.seen - self.rested > MOMENT
+        if self.place is None or not is_followed or missing > APPROACH:
             return False
         here = self.expected(time)
+        if abs(math.log(face.breadth / here.breadth)) > HEAD_GROWN:
+            return True
         away = math.hypot(face.x - here.x, face.y - here.y) / here.breadth
-        return away > HEAD_AWAY or abs(math.log(face.breadth / here.breadth)) > HEAD_GROWN
+        return missing <= MOMENT and away > HEAD_AWAY
 
     def follow(self, colors: Colors, clothes: Clothes, around: Surroundings) -> Place | None:
         """Look for it near where it should be, or in the whole picture; where it is."""
@@ -268,7 +277,7 @@ class _Search:
         )
         breadths = size * np.exp(SIZE_STEP * grown)
         cost = REACH_COST * np.minimum(4.0, np.abs(x - self._expected.x) / size)
-        cost += STEP_COST * (0.25 * grown**2 + high**2) + TURN_COST * (1 - turned) ** 2
+        cost += STEP_COST * (grown**2 + high**2) + TURN_COST * (1 - turned) ** 2
         return self._best(x, breadths, turned, high, cost, has_rivals=True)
 
     def _best(
@@ -308,11 +317,11 @@ class _Search:
         return _Found(Place(at_x, at_y, math.exp(size)), aside, float(torso[best]))
 
     def _is_taken(self, x: Floats, breadth: Floats) -> NDArray[np.bool_]:
-        """Which places are those of others."""
+        """Which places are those of others, or behind them."""
         taken = np.zeros(x.shape, np.bool_)
         for other in self._around.others:
             near = np.abs(x - other.x) < TAKEN * np.maximum(breadth, other.breadth)
-            taken |= near & (np.abs(np.log(breadth / other.breadth)) < TAKEN_SIZE)
+            taken |= near & (np.log(breadth / other.breadth) < TAKEN_SIZE)
         return taken
 
     def _mean(

@@ -63,6 +63,11 @@ OUTLINE_EVERY, OUTLINE_MISSING = 1.0, 0.2
 """Seconds between two such looks for someone who is followed, and for who was lost just now."""
 WIDE_EVERY = 0.1
 """Seconds between two looks for the same body in the whole picture."""
+SURELY_FACED = 0.4
+"""Seconds for which a face must stay to be that of who was followed from behind: else they are
+looked for where their body was."""
+JUST = 0.1
+"""Seconds for which someone is where they were seen."""
 SECOND_LOOK = 0.5
 """Seconds within which a face must be found again when there is no mesh to confirm it."""
 CLOSE, APART = 1.1, 1.4
@@ -222,14 +227,15 @@ class PeopleTracker:
         return body.take(colors, somebody.clothes, Place.on_body(found), around)
 
     def _around(self, sight: Sight, somebody: PersonTrack) -> Surroundings:
-        """What there is beside someone."""
+        """What there is beside someone, and before them."""
         others = [face.place for other, face in self._seen() if other is not somebody]
-        others += [
-            other.body.place
-            for other in self._known
-            if other is not somebody and other.face is None
-            if other.body.place is not None and other.body.seen == sight.time
-        ]
+        for other in self._known:
+            place, age = other.body.place, sight.time - other.body.seen
+            if other is somebody or other.face is not None or place is None:
+                continue
+            # Of those who are looked for after them, only who stands before them counts.
+            if age == 0 or (age <= JUST and somebody.body.is_behind(place)):
+                others.append(place)
         return Surroundings(sight.time, self._view.horizon(sight.size), others)
 
     def _urgency(self, seen: tuple[PersonTrack, FaceTrack]) -> tuple[bool, float, int]:
@@ -335,7 +341,7 @@ class PeopleTracker:
                 somebody = missing[index]
                 if somebody in self._departed:
                     self._rejoin(somebody)
-            somebody.face, somebody.fitted = face, sight.time
+            somebody.face, somebody.fitted, somebody.faced = face, sight.time, sight.time
 
     def _rejoin(self, somebody: PersonTrack) -> None:
         """Let someone be there again."""
@@ -348,14 +354,16 @@ class PeopleTracker:
         Of those who are mixed up, each may be taken for another: a face that fits any of them will
         do, and so will one that is half covered still. Who is who is settled when they are apart.
         """
+        misfit = self._misfit_of_clothes(sight, somebody, face)
+        if math.isinf(misfit):
+            return math.inf
         group = next((group for group in self._groups() if somebody in group), [])
         if group and any(_between(face, other) < APART for _, other in self._seen()):
             return somebody.identity.cost(sight.time, face, look)
         if group:
             cost = min(other.identity.cost(sight.time, face, look) for other in group)
             return cost if cost < STRANGER_IN_CROWD else math.inf
-        cost = somebody.identity.cost(sight.time, face, look, RETURN_MEMORY)
-        cost += self._misfit_of_clothes(sight, somebody, face)
+        cost = somebody.identity.cost(sight.time, face, look, RETURN_MEMORY) + misfit
         return cost if cost < STRANGER else math.inf
 
     def _misfit_of_clothes(self, sight: Sight, somebody: PersonTrack, face: FaceTrack) -> float:
@@ -370,7 +378,8 @@ class PeopleTracker:
             if somebody.body.contradicts(sight.time, face.place):
                 return math.inf
             is_there = sight.time - somebody.body.seen <= MOMENT
-            if not is_there and (alike is None or alike.mean < FOUND_AGAIN):
+            least = OTHER_CLOTHES if is_there else FOUND_AGAIN
+            if alike.mean < least if alike is not None else not is_there:
                 return math.inf
         if alike is None:
             return 0.0
@@ -444,8 +453,8 @@ class PeopleTracker:
         mixed = set().union(*self._mixed)
         for somebody, face in self._seen():
             somebody.seen = sight.time
-            around = self._around(sight, somebody)
-            somebody.body.rest_on(face.place, around)
+            if not somebody.went_away or sight.time - somebody.faced >= SURELY_FACED:
+                somebody.body.rest_on(face.place, self._around(sight, somebody))
             if somebody.number in mixed:
                 continue
             somebody.identity.place(sight.time, face.place)

@@ -35,6 +35,8 @@ class PersonTrack:
         self.clothes, self.body = Clothes(), BodyTrack()
         self.dressed = -math.inf
         """Seconds, when their clothes were learned last."""
+        self.faced = time
+        """Seconds, when the face came that they have."""
         self._since = time
         self.seen = time
         """Seconds, when they were in sight last."""

@@ -92,9 +92,10 @@ def test_who_turns_around_and_walks_away_stays_the_same_person(detectors: Detect
         assert not person.is_looking
 
 
-def test_who_passes_between_in_other_clothes_is_not_taken_for_them(detectors: Detectors) -> None:
+@pytest.mark.parametrize("clothes", [RED, Outfit(BLUE.shirt, RED.trousers)])
+def test_who_passes_between_is_not_taken_for_them(detectors: Detectors, clothes: Outfit) -> None:
     guide = Walker("ada", BLUE)
-    people = seen(detectors, [guide, Passing("kofi", RED, 3.0, 0.9)], 6.5)
+    people = seen(detectors, [guide, Passing("kofi", clothes, 3.0, 0.9)], 6.5)
     for each in people[round(2.6 * RATE) :]:
         person = each.person("p1")
         assert person is not None
@@ -199,6 +200,35 @@ def test_an_outline_counts_only_in_their_clothes_and_near_where_they_were() -> N
     assert body.take(blue, clothes, Place(420.0, 240.0, 20.0), around) is None
     assert body.take(blue, clothes, Place(320.0, 240.0, 40.0), around) is None
     assert body.take(blue, clothes, Place(322.0, 241.0, 21.0), around) is not None
+
+
+def test_who_stands_behind_someone_else_is_not_seen_in_their_clothes() -> None:
+    shown = OPTICS.show("ada", Posture(), 0.0, 2.0, turn=math.pi, outfit=BLUE)
+    where = Place(*shown.center, 0.178 * shown.height / 0.24)
+    colors = Colors.of(render_people([shown], OPTICS.size))
+    nearer = Place(where.x, where.y, 1.8 * where.breadth)
+
+    def found(*others: Place) -> Place | None:
+        clothes, body = Clothes(), BodyTrack()
+        clothes.learn(colors, where)
+        clothes.look_around(colors, where)
+        body.rest_on(where, Surroundings(0.0, 240.0))
+        assert not body.is_behind(where)
+        assert body.is_behind(nearer)
+        return body.follow(colors, clothes, Surroundings(0.1, 240.0, others))
+
+    assert found() is not None
+    assert found(nearer) is None
+    assert found(Place(where.x + 4 * where.breadth, where.y, where.breadth)) is not None
+
+
+def test_nobody_comes_near_in_a_jerk() -> None:
+    body = BodyTrack()
+    body.rest_on(Place(320.0, 240.0, 40.0), Surroundings(0.0, 240.0))
+    body.place, body.seen = Place(320.0, 240.0, 40.0), 1.0
+    assert not body.contradicts(1.6, Place(400.0, 240.0, 44.0)), "they may have walked aside"
+    assert body.contradicts(1.6, Place(320.0, 240.0, 90.0))
+    assert not body.contradicts(2.5, Place(320.0, 240.0, 90.0))
 
 
 numbers = st.floats(allow_nan=True, allow_infinity=True)
