@@ -57,6 +57,8 @@ SPEED = (0.22, 0.28)
 """Meters a second of the guide: the robot does 0.3."""
 PASSING = (0.7, 1.2)
 """The same of a passer-by."""
+ACROSS = 3.0
+"""Meters from where a passer-by comes in to where they pass between the two."""
 WAITS = (4.0, 9.0)
 """Seconds from one passer-by to the next."""
 GREETING = 3.0
@@ -225,9 +227,15 @@ class _Trip:
         speed = self._dice.uniform(*PASSING)
         if self._dice.random() < 0.6:
             part = self._dice.uniform(0.45, 0.65)
-            middle = pose.x + part * (x - pose.x), pose.y + part * (y - pose.y)
+            # Between the two when they get there, not where the robot will be by then.
+            later = self._guide.place(now + ACROSS / speed)
+            walked = later[0] - x, later[1] - y
+            middle = (
+                pose.x + part * (x - pose.x) + walked[0],
+                pose.y + part * (y - pose.y) + walked[1],
+            )
             across = ahead + side * math.pi / 2
-            start, goal = (_moved(middle, across, far) for far in (-3.0, 3.5))
+            start, goal = (_moved(middle, across, far) for far in (-ACROSS, 3.5))
         else:
             beside = _moved((x, y), ahead + side * math.pi / 2, self._dice.uniform(0.7, 1.1))
             start, goal = _moved(beside, ahead, -2.5), _moved(beside, ahead, 5.0)

@@ -79,6 +79,11 @@ REPLAN_S = 0.5
 """Seconds until it looks for a route again."""
 WEAVE, WEAVE_S = 0.3, 2.5
 """Radians and seconds of a swing."""
+WATCHING_WEAVE = 0.1
+"""Radians of a swing while the robot keeps its eyes on someone."""
+WATCHING_S = 2.5
+"""Seconds that it waits with its eyes on them before it turns away to get past what is in the way:
+whoever crosses is gone by then."""
 GAIN = 0.4
 """Meters that another route must save before the robot leaves the one it is on."""
 DOUBT_S = 15.0
@@ -110,6 +115,9 @@ class Manner:
     """Meters from the goal that count as there."""
     aim: float = math.inf
     """Where it is there, it goes on until it is this near, meters, as long as the goal is ahead."""
+    watch: float = math.inf
+    """Radians by which it turns away from the heading of its goal, where someone is in sight of its
+    camera; before it turns further, to get past something, it waits for a moment."""
 
 
 def towards(pose: Pose2D, goal: Pose2D) -> tuple[float, float]:
@@ -169,6 +177,8 @@ class Avoidance:
         self._approaching = ApproachDetector(mechanics.mounts)
         self._seen = self._fresh = self.memory.points
         self._chosen = 0.0
+        self._aside_since: float | None = None
+        """Seconds, when the way began to lead out of sight of whom it watches."""
         self._startled_until = self._backing_until = -math.inf
         self._is_moving = self._is_blind = False
         self._leaning = Leaning(mechanics.mounts)
@@ -188,6 +198,7 @@ class Avoidance:
         self.memory.see(now, pose, readings, self.mechanics)
         reach = PERSON_RADIUS + self.manner.person_gap
         self._discs = [(x, y, reach) for x, y in self._walkers.see(now, pose, people)]
+        self.memory.pass_by(now, self._walkers.walking(now))
         self._approaching.see(now, readings)
         self._leaning.see(now, pose, readings)
         known = (readings.get(id) for id in self.mechanics.mounts)
@@ -213,7 +224,7 @@ class Avoidance:
     def steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
         """The velocity for now on the way to a goal; rest when it is reached, or nothing is free.
 
-        The heading of the goal does not count.
+        The heading of the goal counts only where the robot keeps its eyes on someone there.
         """
         self._seen, self._fresh = self.memory.points, self.memory.since(now - DOUBT_S)
         ways = free_ways(pose, self._seen, self._reach, self._discs)
@@ -279,13 +290,15 @@ class Avoidance:
 
     def _forth(self, now: float, pose: Pose2D, goal: Pose2D, ways: Array) -> Twist:
         """Along the route, or around what is in its way."""
-        direction, way = self._lead(now, pose, goal)
+        lead, way = self._lead(now, pose, goal)
         is_free = self._histogram.update(ways, way)
-        if not is_free[sector(direction)]:
-            best = self._cheapest(pose, direction)
-            if best is None:  # nothing is free: look around on the spot
-                return Twist(0.0, (self.side or 1) * self.manner.turn_rate * 0.6)
-            direction = best
+        direction = lead if is_free[sector(lead)] else self._cheapest(pose, lead)
+        if self._keeps_watching(now, goal, direction):
+            # Its beams swing past what stands there no more.
+            heading = goal.heading + self._swing(now, WEAVE)
+            return turn_to(pose, heading, self.manner.turn_rate)
+        if direction is None:  # nothing is free: look around on the spot
+            return Twist(0.0, (self.side or 1) * self.manner.turn_rate * 0.6)
         self._chosen = direction
         direction += self._weave(now, direction)
         _, distance = towards(pose, goal)
@@ -294,12 +307,24 @@ class Avoidance:
         )
         return straight_to(pose, course, self.manner, self._governed(pose))
 
+    def _keeps_watching(self, now: float, goal: Pose2D, direction: float | None) -> bool:
+        """Whether it stands and faces whom it watches, since no way leads toward them yet."""
+        aside = math.pi if direction is None else abs(wrapped(direction - goal.heading))
+        if aside <= self.manner.watch:
+            self._aside_since = None
+            return False
+        if self._aside_since is None:
+            self._aside_since = now
+        return math.isfinite(self.manner.watch) and now - self._aside_since < WATCHING_S
+
     def _weave(self, now: float, direction: float) -> float:
         """Radians to the side: it swings its few beams to and fro, where there is room for that."""
-        if not self.mechanics.mounts:
-            return 0.0
-        aside = WEAVE * math.sin(math.tau * now / WEAVE_S)
+        aside = self._swing(now, WEAVE if math.isinf(self.manner.watch) else WATCHING_WEAVE)
         return aside if self._histogram.is_free[sector(direction + 2 * aside)] else 0.0
+
+    def _swing(self, now: float, width: float) -> float:
+        """Radians to the side at which its beams look now; 0 without any."""
+        return width * math.sin(math.tau * now / WEAVE_S) if self.mechanics.mounts else 0.0
 
     def _lead(self, now: float, pose: Pose2D, goal: Pose2D) -> tuple[float, float]:
         """Direction to the next point of the route, and meters to there."""

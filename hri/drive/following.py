@@ -1,8 +1,8 @@
 """Following someone at a distance, facing them; looking for them when they are lost.
 
 Pure: what is seen comes in with its time, goals in the odometry frame go out. A target that is lost
-is looked for where it was seen last; from there the robot turns once around, first to the side on
-which it went out of sight. Meters, radians, seconds.
+is looked for where it must have walked to; from there the robot turns around twice, first to the
+side on which it went out of sight. Meters, radians, seconds.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ import math
 from collections import deque
 from dataclasses import dataclass
 from enum import Enum
+
+import numpy as np
 
 from hri.core.event_bus import EventBus
 from hri.core.geometry import placed
@@ -21,8 +23,12 @@ LOST_S = 1.0
 """Without a sight of it for so long, a target is lost."""
 SEARCH_RATE = 0.6
 """Radians a second while it looks around."""
-LOOK_AROUND = math.tau
+LOOK_AROUND = 2 * math.tau
 """Radians that it turns, searching, before it gives up."""
+WALK_S, WALKS_ON_S = 1.5, 2.0
+"""Seconds over which the walk of a target is measured, and for which it is taken to walk on."""
+FASTEST = 1.5
+"""Meters a second that a person walks."""
 SLACK = 0.15
 """Meters by which the target may come nearer or go before the robot follows again."""
 
@@ -105,6 +111,8 @@ class Following:
         self.person = ""
         """Id of who was seen last by `look`, or name of what; empty before."""
         self._target: tuple[float, float] | None = None
+        self._sights: deque[tuple[float, float, float]] = deque()
+        """Seconds, x and y of the last WALK_S."""
         self._side = 1.0
         self._seen = self._looked = -math.inf
         self._turned = 0.0
@@ -119,7 +127,9 @@ class Following:
             return
         away = placed(pose, distance * math.cos(bearing), distance * math.sin(bearing))
         self._target, self._seen = away, now
-        self._side = math.copysign(1.0, bearing)
+        self._sights.append((now, *away))
+        while now - self._sights[0][0] > WALK_S:
+            self._sights.popleft()
         self.pursuit = Pursuit.FOLLOWING
 
     def look(self, now: float, pose: Pose2D, people: People | None, id: str) -> Person | None:
@@ -151,8 +161,21 @@ class Following:
         if self._target is None or self.pursuit is Pursuit.LOST:
             return None
         if now - self._seen <= LOST_S:
-            return self._keep_up(pose, self._target)
-        return self._search(now, pose, self._target)
+            return self._keep_up(pose, self._expected(now, self._target))
+        return self._search(now, pose, self._expected(now, self._target))
+
+    def _expected(self, now: float, seen: tuple[float, float]) -> tuple[float, float]:
+        """Where the target is now, if it walks on for a while as it did."""
+        ahead = min(WALKS_ON_S, now - self._seen)
+        times, x, y = np.array(self._sights).T
+        since = times - times.mean()
+        spread = float(since @ since)
+        if ahead <= 0 or times[-1] - times[0] < WALK_S / 2:
+            return seen
+        velocity = float(since @ x) / spread, float(since @ y) / spread
+        speed = math.hypot(*velocity)
+        ahead *= min(1.0, FASTEST / speed) if speed > 0 else 0.0
+        return seen[0] + velocity[0] * ahead, seen[1] + velocity[1] * ahead
 
     def _keep_up(self, pose: Pose2D, target: tuple[float, float]) -> Pose2D:
         """A place at the right distance on the straight way to the target."""
@@ -171,6 +194,8 @@ class Following:
         """Go to where it was seen last, then turn around."""
         if self.pursuit is not Pursuit.SEARCHING:
             self.pursuit, self._turned, self._last = Pursuit.SEARCHING, 0.0, None
+            left = math.atan2(target[1] - pose.y, target[0] - pose.x) - pose.heading
+            self._side = math.copysign(1.0, math.sin(left))
         if now - self._seen > self.manner.patience_s:
             self.pursuit = Pursuit.LOST
             return None

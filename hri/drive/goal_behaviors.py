@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from dataclasses import replace
 
 from hri.behavior.behavior import Context
 from hri.behavior.device import DeviceBehavior
@@ -101,6 +102,13 @@ class Beeline(_Going):
 class ObstacleAvoidance(_Going):
     """Goes to a goal around obstacles, as the configuration describes body and range sensors."""
 
+    watch = Param(
+        0.0,
+        "radians off the heading of the goal, where someone is in sight of the camera, beyond which"
+        " it waits before it turns away; 0: it does not look at the heading",
+        minimum=0,
+        maximum=3,
+    )
     sensor_ids = Param("", "ids of range sensors with spaces between; empty takes all there are")
 
     people = Input[People]("people", "who is seen; it keeps half a meter away while it moves")
@@ -113,6 +121,9 @@ class ObstacleAvoidance(_Going):
         self._sensors = {id: self.obtain(id, RangeSensor) for id in ids}
         self._avoidance = Avoidance(mechanics_of(context.resources, ids), self._manner())
         self._route = context.board.slot(ROUTE)
+
+    def _manner(self) -> Manner:
+        return replace(super()._manner(), watch=self.watch or math.inf)
 
     def _look(self, now: float, pose: Pose2D) -> None:
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}

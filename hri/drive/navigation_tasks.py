@@ -43,7 +43,9 @@ from hri.task.task import task
 from hri.task.units import UNIT_ANGLE, UNIT_DISTANCE, UNIT_TIME, in_si
 
 USUAL = Manner()
-"""How it follows and wanders."""
+"""How it wanders."""
+WATCHFUL = Manner(watch=0.35)
+"""How it goes to someone: they stay within the 60 degrees that a usual camera sees."""
 EXACT, CLOSE = 0.01, 0.1
 """Meters from a place that count as there, where there is room and where there is not."""
 AIM = 0.003
@@ -133,7 +135,7 @@ async def follow_target(
 ) -> Ending:
     """Follow someone or something, as `follow` does; how that ended."""
     _refuse_nan(distance, seconds)
-    with _traveler(context) as traveler:
+    with _traveler(context, WATCHFUL) as traveler:
         following = traveler.following(distance, target)
         approach = Approach(PATIENCE_S, NEARER)
         start, reason, halt = context.clock.now(), Reason.STOPPED, ""
@@ -188,7 +190,7 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
 async def come_to(context: TaskContext, target: Target, distance: float) -> bool:
     """Come to someone or something, as `come_here` does; whether it did."""
     _refuse_nan(distance)
-    with _traveler(context) as traveler:
+    with _traveler(context, WATCHFUL) as traveler:
         if not await look_around(context, target):
             return False
         following = traveler.following(distance, target)

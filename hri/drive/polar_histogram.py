@@ -38,6 +38,8 @@ STAYS_S = 8.0
 some seconds at most."""
 FELT_S = 15.0
 """Seconds for which something is remembered that the bumper felt."""
+TRACE_S, TRACE = 1.0, 0.5
+"""Seconds for which a point is remembered that lies so near to someone who walks, meters."""
 FARTHEST = 10.0
 """Meters; what is farther away is in nobody's way."""
 DEPTH = 0.3
@@ -58,8 +60,8 @@ class Memory:
         """`keep_s`: seconds that a point is remembered."""
         self._keep = keep_s
         self._points: Array = np.zeros((0, 6))
-        """x, y, when it was seen last, the direction it was looked at in, 1 when it was felt, and
-        when it was seen first."""
+        """x, y, when it was seen last, the direction it was looked at in, 1 when it was felt and -1
+        when it was someone who walks, and when it was seen first."""
 
     @property
     def points(self) -> Array:
@@ -89,7 +91,8 @@ class Memory:
         mechanics: Mechanics,
     ) -> None:
         """Take in what the beams say from a pose; a reading that is not a number is left out."""
-        keep = np.where(self._points[:, 4] > 0, FELT_S, self._keep)
+        kind = self._points[:, 4]
+        keep = np.select([kind > 0, kind < 0], [FELT_S, TRACE_S], self._keep)
         self._points = self._points[self._points[:, 2] > now - keep]
         for id, mount in mechanics.mounts.items():
             reading = readings.get(id)
@@ -101,6 +104,14 @@ class Memory:
                 x = start[0] + reading.distance * math.cos(angle)
                 y = start[1] + reading.distance * math.sin(angle)
                 self.add(x, y, now, angle)
+
+    def pass_by(self, now: float, walkers: Sequence[tuple[float, float]]) -> None:
+        """Someone walks at each of these places: what was just seen there is soon gone."""
+        x, y, last, _, kind, first = self._points.T
+        is_trace = (now - last < TRACE_S) & (last - first < STAYS_S) & (kind == 0)
+        for at_x, at_y in walkers:
+            near = np.hypot(x - at_x, y - at_y) < TRACE
+            self._points[near & is_trace, 4] = -1.0
 
     def forget(self, before: float) -> None:
         """Forget what was seen before a time."""

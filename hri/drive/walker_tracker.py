@@ -39,18 +39,27 @@ class _Track:
         while self.sights[0][0] < time - WATCHED_S:
             self.sights.popleft()
 
+    @property
+    def walks(self) -> bool:
+        return math.hypot(*self._velocity()) > WALKS
+
     def at(self, now: float) -> tuple[float, float]:
         """Where they are now, if they go on as they did: x and y."""
         times, x, y = np.array(self.sights).T
-        vx = vy = 0.0
-        if len(times) >= LEAST_SIGHTS:
-            since = times - times.mean()
-            spread = float(since @ since)
-            vx, vy = float(since @ x) / spread, float(since @ y) / spread
-        if math.hypot(vx, vy) <= WALKS:
+        if not self.walks:
             return float(x[-1]), float(y[-1])
+        vx, vy = self._velocity()
         way = now - float(times.mean())
         return float(x.mean()) + vx * way, float(y.mean()) + vy * way
+
+    def _velocity(self) -> tuple[float, float]:
+        """Meters a second in x and y; 0 before it can be told."""
+        times, x, y = np.array(self.sights).T
+        if len(times) < LEAST_SIGHTS:
+            return 0.0, 0.0
+        since = times - times.mean()
+        spread = float(since @ since)
+        return float(since @ x) / spread, float(since @ y) / spread
 
 
 class WalkerTracker:
@@ -75,6 +84,10 @@ class WalkerTracker:
         kept = now - REMEMBERED_S
         self._tracks = {id: t for id, t in self._tracks.items() if t.sights[-1][0] >= kept}
         return [track.at(now) for track in self._tracks.values()]
+
+    def walking(self, now: float) -> list[tuple[float, float]]:
+        """Where those are who walk, x and y."""
+        return [track.at(now) for track in self._tracks.values() if track.walks]
 
     def _take(self, people: People) -> None:
         time = people.time

@@ -129,6 +129,31 @@ def test_it_keeps_half_a_meter_to_people_it_knows_of() -> None:
     assert trial.closest_person > 0.45
 
 
+def watched(watch: float, seconds: float) -> Trial:
+    """Someone crosses close to a robot, which goes to someone far ahead."""
+    trial = Trial(Room())
+    trial.avoidance = Avoidance(MECHANICS, Manner(watch=watch))
+    for step in range(round(seconds / TICK)):
+        trial.people = ((1.0 + 0.3 * step * TICK, 1.0 - step * TICK),)
+        trial.tick(Pose2D(5.0, 0.0, 0.0))
+    return trial
+
+
+def test_whoever_is_watched_stays_in_sight_while_another_one_crosses() -> None:
+    trial = watched(0.35, 8.0)
+    assert max(abs(pose.heading) for pose in trial.path) < 0.45
+    assert trial.pose.x > 1.0, "it waits no longer than it must"
+    heedless = watched(math.inf, 8.0)
+    assert max(abs(pose.heading) for pose in heedless.path) > 0.6
+
+
+def test_what_does_not_go_away_is_gone_around_though_someone_is_watched() -> None:
+    trial = Trial(Room([Box(1.5, 0.0, 0.5, 1.8)]))
+    trial.avoidance = Avoidance(MECHANICS, Manner(watch=0.35))
+    assert trial.go(Pose2D(3.5, 0.0, 0.0), 60.0)
+    assert trial.closest > 0
+
+
 def test_it_keeps_to_one_side() -> None:
     trial = Trial(Room([Box(1.5, 0.0, 0.5, 1.8)]))
     sides = []

@@ -97,6 +97,18 @@ def test_it_looks_first_to_the_side_on_which_the_target_went() -> None:
     assert chase.pose.heading < -0.5
 
 
+def test_whoever_walks_out_of_sight_is_looked_for_where_they_walk() -> None:
+    chase = Chase(2.0, 0.0)
+    for step in range(40):
+        chase.target = (2.0, 0.02 * step)
+        chase.run(TICK)
+    chase.is_seen = False
+    for step in range(40, 70):
+        chase.target = (2.0, 0.02 * step)
+        chase.run(TICK)
+    assert abs(chase.facing) < 0.25
+
+
 def test_a_target_that_is_found_again_is_followed() -> None:
     chase = Chase(3.0, 0.0)
     chase.run(2.0)

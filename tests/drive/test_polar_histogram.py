@@ -50,6 +50,23 @@ def test_a_beam_that_passes_through_a_point_removes_it() -> None:
     assert not len(memory.points)
 
 
+def test_what_someone_leaves_who_walks_by_is_soon_forgotten() -> None:
+    walker, thing = remembering((0.0, 0.5)), remembering((0.0, 0.5))
+    walker.pass_by(0.1, [(0.8, 0.3)])
+    thing.pass_by(0.1, [(0.8, 1.3)])
+    for memory in (walker, thing):
+        memory.see(1.2, HERE, {}, ONE_BEAM)
+    assert not len(walker.points)
+    assert len(thing.points)
+
+
+def test_what_has_stood_there_for_long_stays_though_someone_walks_by() -> None:
+    memory = remembering(*((step / 2, 0.5) for step in range(20)), keep=60.0)
+    memory.pass_by(9.6, [(0.6, 0.1)])
+    memory.see(15.0, HERE, {}, ONE_BEAM)
+    assert len(memory.points)
+
+
 def test_a_beam_that_ends_before_a_point_leaves_it() -> None:
     assert len(remembering((0.0, 0.5), (0.1, 0.3)).points) == 4
 
