@@ -245,6 +245,12 @@ class Avoidance:
         self._is_moving = twist.linear > 0
         return twist
 
+    def is_touched(self, now: float) -> bool:
+        """Whether something presses the bumper, or did a moment ago: a gate that was dropped hears
+        only who rests then.
+        """
+        return now < self._startled_until or self._leaning.is_pressed
+
     def is_open(self, pose: Pose2D, goal: Pose2D) -> bool:
         """Whether nothing stands on the straight way to a goal."""
         direction, distance = towards(pose, goal)

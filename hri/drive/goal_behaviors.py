@@ -68,7 +68,7 @@ class _Going(_FromPose, ABC):
             raise HriError(f"cannot go to {goal} - give finite numbers")
         twist = self._steer(now, pose, goal)
         is_at = math.dist((pose.x, pose.y), (goal.x, goal.y)) <= self.near
-        if is_at and self.faces:
+        if is_at and self.faces and not self._is_touched(now):
             twist = turn_to(pose, goal.heading, self.max_angular)
         self._send(twist)
         self.is_there.send(is_at and twist == REST)
@@ -79,6 +79,10 @@ class _Going(_FromPose, ABC):
     @abstractmethod
     def _steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
         """The velocity toward the goal."""
+
+    def _is_touched(self, now: float) -> bool:
+        """Whether it rests because something touches it, or did a moment ago."""
+        return False
 
     def _send(self, twist: Twist) -> None:
         factor = self.speed.value
@@ -124,6 +128,9 @@ class ObstacleAvoidance(_Going):
 
     def _manner(self) -> Manner:
         return replace(super()._manner(), watch=self.watch or math.inf)
+
+    def _is_touched(self, now: float) -> bool:
+        return self._avoidance.is_touched(now)
 
     def _look(self, now: float, pose: Pose2D) -> None:
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}

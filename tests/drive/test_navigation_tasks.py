@@ -436,6 +436,27 @@ def test_a_goal_of_the_network_that_is_no_place_is_refused(tmp_path: Path) -> No
     assert avoidance.velocity.value is None
 
 
+def test_at_its_goal_it_rests_after_a_touch_before_it_turns_on(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    avoidance = ObstacleAvoidance("avoidance", faces=True)
+    avoidance.start(stage.context)
+    avoidance.goal.sources.append(OutputPort(Pose2D(0.0, 0.0, 1.0)))
+    avoidance.bump.sources.append(press := OutputPort(False))
+
+    def turning(now: float) -> float:
+        avoidance.compute(now, 0.05)
+        twist = avoidance.velocity.value
+        assert twist is not None
+        return twist.angular
+
+    assert turning(0.0) > 0
+    press.send(True)
+    assert turning(0.05) == 0.0
+    press.send(False)
+    assert turning(0.1) == 0.0, "a gate hears only who has rested"
+    assert turning(0.5) > 0
+
+
 def _end(stage: Set, **arguments: Any) -> Ending:
     """How following somebody whom the camera sees ended."""
     job = partial(navigation_tasks.follow_person, **arguments)

@@ -26,8 +26,9 @@ THEIRS = 0.5
 """Likeness of clothes below which it is not them."""
 FOUND_AGAIN = 0.6
 """The same for who was out of sight."""
-LEAST = 0.35
-"""Likeness of each part of them that they must have then."""
+LEAST, CLEARLY, LEAST_CLEARLY = 0.35, 0.7, 0.2
+"""Likeness of each part of them that they must have then; and that of all from which on a part may
+be less alike: light falls otherwise on it, or something stands before it."""
 SHOWN = 0.12
 """How far the torso must speak for them, of 1."""
 SIDES_COUNT, ABOVE, LEGS_COUNT = 2.5, 0.5, 0.4
@@ -175,7 +176,7 @@ class BodyTrack:
         alike = clothes.likeness(colors, found.place, is_behind=True)
         if alike is None or alike.mean < (FOUND_AGAIN if is_wide else THEIRS):
             return None
-        if is_wide and alike.least < LEAST:
+        if is_wide and alike.least < (LEAST if alike.mean < CLEARLY else LEAST_CLEARLY):
             return None
         self._breadth = found.breadth
         place = self._steadied(found.place, expected, is_wide)
