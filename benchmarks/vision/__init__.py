@@ -6,6 +6,7 @@ import os
 
 from benchmarks.vision import (
     colors,
+    contact,
     cross_validation,
     crossing,
     expressions,
@@ -40,6 +41,7 @@ PARTS: Parts = {
     "things that are shown": shown_things.rows,
     "colors": colors.rows,
     "markers": markers.rows,
+    "time to contact": contact.rows,
     "films": lambda quick: videos.rows(quick, WORKERS),
 }
 """What `hri bench vision` measures in a checkout beside its own, in the order of the table."""

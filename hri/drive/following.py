@@ -191,7 +191,7 @@ class Following:
         return Pose2D(pose.x + x * share, pose.y + y * share, facing)
 
     def _search(self, now: float, pose: Pose2D, target: tuple[float, float]) -> Pose2D | None:
-        """Go to where it was seen last, then turn around."""
+        """Go to where it must be, then turn around."""
         if self.pursuit is not Pursuit.SEARCHING:
             self.pursuit, self._turned, self._last = Pursuit.SEARCHING, 0.0, None
             left = math.atan2(target[1] - pose.y, target[0] - pose.x) - pose.heading

@@ -39,6 +39,8 @@ CERTAIN = 10.0
 LEAST_GROWTH = 0.1
 """... and at least by as many pixels at the border."""
 
+EDGE = cv2.BORDER_REPLICATE
+
 Cells = NDArray[np.float32]
 
 
@@ -76,20 +78,53 @@ class BlockFlow:
 
     def _growth(self) -> tuple[float, float]:
         """How much the picture grows, and the standard error of that."""
+        grown = self.grown()
+        if grown is None:
+            return 0.0, math.inf
+        # The flow is known by where things are now, when the picture has already grown.
+        scale = 1 / (1 - min(grown.along, 0.5))
+        return grown.along * scale, grown.error * scale
+
+    def grown(self) -> Grown | None:
+        """Growth and shift that fit best; None with fewer than 12 sure cells."""
         is_sure = self.confidence > SURE
         weights = self.confidence[is_sure].astype(np.float64)
         if len(weights) < FEWEST:
-            return 0.0, math.inf
-        where = CELL * np.argwhere(is_sure)[:, ::-1].astype(np.float64)
+            return None
+        where = _middles(self.cells)[is_sure]
         flow = self.cells[is_sure].astype(np.float64)
-        where -= weights @ where / weights.sum()
-        flow -= weights @ flow / weights.sum()
+        middle, shift = (weights @ values / weights.sum() for values in (where, flow))
+        where -= middle
+        flow -= shift
         spread = weights @ (where**2).sum(axis=1)
         along = float(weights @ (where * flow).sum(axis=1) / spread)
         rest = weights @ ((flow - along * where) ** 2).sum(axis=1)
-        # The flow is known by where things are now, when the picture has already grown.
-        scale = 1 / (1 - min(along, 0.5))
-        return along * scale, scale * math.sqrt(rest / (2 * len(weights) - 3) / spread)
+        return Grown(along, middle, shift, math.sqrt(rest / (2 * len(weights) - 3) / spread))
+
+
+@dataclass(frozen=True, slots=True)
+class Grown:
+    """A picture that has grown and moved as a whole."""
+
+    along: float
+    """Part of the way from the middle by which each point has moved away from it."""
+    middle: NDArray[np.float64]
+    """Pixels to the right and down."""
+    shift: NDArray[np.float64]
+    """By which the middle has moved, likewise."""
+    error: float
+    """Standard error of `along`."""
+
+    @property
+    def origins(self) -> NDArray[np.float64]:
+        """Shape [2, 3]: leads from where something is to where it was."""
+        stay = 1 - self.along
+        moved = self.along * self.middle - self.shift
+        return np.array([[stay, 0, moved[0]], [0, stay, moved[1]]])
+
+    def flow(self, cells: Cells) -> NDArray[np.float64]:
+        """What it makes of cells, in their shape."""
+        return self.shift + self.along * (_middles(cells) - self.middle)
 
 
 def mean_of(cells: Cells, confidence: Cells) -> tuple[float, float]:
@@ -122,6 +157,21 @@ class BlockFlowFinder:
         far = self._from(before, now, structure, guess)
         is_better = far.confidence.sum() > 2 * found.confidence.sum() + FEWEST
         return far if is_better else found
+
+    def again(self, before: Gray, now: Gray, grown: Grown) -> BlockFlow | None:
+        """The flow from a picture that has grown so already.
+
+        Of a motion the search finds some percent too little; here it is what is left of it that is
+        found too little, so that the sum is right to a thousandth or so.
+        """
+        way = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+        size = (now.shape[1], now.shape[0])
+        near = cv2.warpAffine(before, grown.origins, size, flags=way, borderMode=EDGE)
+        left = self.between(np.asarray(near, np.uint8), now)
+        if left is None:
+            return None
+        cells = grown.flow(left.cells) + (1 - grown.along) * left.cells
+        return BlockFlow(np.asarray(cells, np.float32), left.confidence)
 
     def _from(self, before: Gray, now: Gray, structure: Cells, guess: Cells | None) -> BlockFlow:
         dense = self._flow.calc(now, before, guess)
@@ -156,6 +206,12 @@ def _unexplained(before: Gray, now: Gray, dense: Cells) -> Cells:
     expected = cv2.remap(before, x + dense[..., 0], y + dense[..., 1], cv2.INTER_LINEAR)
     rest = np.asarray(cv2.subtract(now, expected, dtype=cv2.CV_32F), np.float32)
     return np.asarray(_by_cell(rest * rest) - _by_cell(rest) ** 2 + LEAST_NOISE, np.float32)
+
+
+def _middles(cells: Cells) -> NDArray[np.float64]:
+    """Pixels to the right and down, shape [rows, columns, 2]: the middles of cells."""
+    rows, columns = np.indices(cells.shape[:2], np.float64)
+    return CELL * (np.stack([columns, rows], axis=-1) + 0.5) - 0.5
 
 
 def _was_inside(cells: Cells, shape: tuple[int, ...]) -> NDArray[np.bool_]:

@@ -106,8 +106,10 @@ class MotionFinder:
         flow = self._finder.between(seen, gray)
         if flow is None:
             return None
-        cells = _without_late_turning(flow.cells, self._view.focal_length(gray.shape[::-1]) * turn)
-        turned = BlockFlow(cells, flow.confidence)
+        late = self._view.focal_length(gray.shape[::-1]) * turn
+        cells = _without_late_turning(flow.cells, late)
+        exact = self._exact(seen, gray, flow, time - before.time)
+        turned = BlockFlow(_without_late_turning(exact.cells, late), exact.confidence)
         if math.dist((place.x, place.y), (before.place.x, before.place.y)) > DRIVING:
             cells = cells - _shared(cells)
         moving = _moving(cells, flow.cells - cells, seen, gray)
@@ -116,6 +118,15 @@ class MotionFinder:
         regions = tuple(self._region(box, scale, size, pan) for box in _boxes(moving))
         speed = np.asarray(cells / np.float32(scale * elapsed), np.float32)
         return FoundMotion(Motion(time, elapsed, speed, regions, flow.confidence), turned)
+
+    def _exact(
+        self, before: NDArray[np.uint8], now: NDArray[np.uint8], flow: BlockFlow, elapsed: float
+    ) -> BlockFlow:
+        """The flow of a scene that surely comes nearer, more exactly; others as they are."""
+        grown = flow.grown()
+        if grown is None or not math.isfinite(flow.time_to_contact(elapsed)):
+            return flow
+        return self._finder.again(before, now, grown) or flow
 
     def _turned(
         self, gray: NDArray[np.uint8], turn: float

@@ -101,8 +101,8 @@ def test_a_camera_that_drives_sees_no_motion_in_a_still_room_but_the_time_to_con
     found = finder.look(seen(wall, distance=near, seed=1), STEP, ahead, 0.0)
     assert found.motion.regions == ()
     contact = near / (far - near) * STEP
-    assert found.time_to_contact == pytest.approx(contact, rel=0.25)
-    assert found.expansion == pytest.approx(1 / contact, rel=0.25)
+    assert found.time_to_contact == pytest.approx(contact, rel=0.03)
+    assert found.expansion == pytest.approx(1 / contact, rel=0.03)
 
 
 def test_a_camera_that_backs_off_meets_nothing(wall):
