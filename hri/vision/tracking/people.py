@@ -355,7 +355,7 @@ class PeopleTracker:
         do, and so will one that is half covered still. Who is who is settled when they are apart.
         """
         misfit = self._misfit_of_clothes(sight, somebody, face)
-        if math.isinf(misfit):
+        if somebody.walked_away and math.isinf(misfit):
             return math.inf
         group = next((group for group in self._groups() if somebody in group), [])
         if group and any(_between(face, other) < APART for _, other in self._seen()):

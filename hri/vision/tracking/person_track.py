@@ -20,6 +20,8 @@ from hri.vision.tracking.place import Place
 
 DISTANCE_SMOOTHING = 0.25
 """Seconds over which the distance is averaged."""
+WALKED_AWAY = 2.0
+"""Seconds from behind; others who pass cover a face for less."""
 DEPTH_LEARNING = 0.2
 """Part of how far away someone is, for the size of the face, that each picture makes up."""
 
@@ -52,6 +54,11 @@ class PersonTrack:
     def went_away(self) -> bool:
         """Whether they were seen from behind last, not their face."""
         return self.body.seen > self.body.rested
+
+    @property
+    def walked_away(self) -> bool:
+        """Whether they were followed from behind for longer than others cover a face."""
+        return self.body.seen - self.body.rested > WALKED_AWAY
 
     def describe(self, time: float, size: tuple[int, int], view: CameraView) -> Person:
         """The person as they are now, or as they were last while they are out of sight."""
