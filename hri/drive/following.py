@@ -12,11 +12,10 @@ from collections import deque
 from dataclasses import dataclass
 from enum import Enum
 
-import numpy as np
-
 from hri.core.event_bus import EventBus
 from hri.core.geometry import placed
 from hri.core.signals import People, Person, Pose2D
+from hri.drive.walker_tracker import velocity_of
 
 STAND = "stand where the camera sees you"
 LOST_S = 1.0
@@ -167,12 +166,9 @@ class Following:
     def _expected(self, now: float, seen: tuple[float, float]) -> tuple[float, float]:
         """Where the target is now, if it walks on for a while as it did."""
         ahead = min(WALKS_ON_S, now - self._seen)
-        times, x, y = np.array(self._sights).T
-        since = times - times.mean()
-        spread = float(since @ since)
-        if ahead <= 0 or times[-1] - times[0] < WALK_S / 2:
+        if ahead <= 0 or self._sights[-1][0] - self._sights[0][0] < WALK_S / 2:
             return seen
-        velocity = float(since @ x) / spread, float(since @ y) / spread
+        velocity = velocity_of(self._sights)
         speed = math.hypot(*velocity)
         ahead *= min(1.0, FASTEST / speed) if speed > 0 else 0.0
         return seen[0] + velocity[0] * ahead, seen[1] + velocity[1] * ahead

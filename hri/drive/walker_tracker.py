@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Collection
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -41,25 +42,16 @@ class _Track:
 
     @property
     def walks(self) -> bool:
-        return math.hypot(*self._velocity()) > WALKS
+        return len(self.sights) >= LEAST_SIGHTS and math.hypot(*velocity_of(self.sights)) > WALKS
 
     def at(self, now: float) -> tuple[float, float]:
         """Where they are now, if they go on as they did: x and y."""
         times, x, y = np.array(self.sights).T
         if not self.walks:
             return float(x[-1]), float(y[-1])
-        vx, vy = self._velocity()
+        vx, vy = velocity_of(self.sights)
         way = now - float(times.mean())
         return float(x.mean()) + vx * way, float(y.mean()) + vy * way
-
-    def _velocity(self) -> tuple[float, float]:
-        """Meters a second in x and y; 0 before it can be told."""
-        times, x, y = np.array(self.sights).T
-        if len(times) < LEAST_SIGHTS:
-            return 0.0, 0.0
-        since = times - times.mean()
-        spread = float(since @ since)
-        return float(since @ x) / spread, float(since @ y) / spread
 
 
 class WalkerTracker:
@@ -97,3 +89,11 @@ class WalkerTracker:
                 ahead = person.distance * math.cos(person.bearing)
                 left = person.distance * math.sin(person.bearing)
                 self._tracks.setdefault(person.id, _Track()).add(time, *placed(pose, ahead, left))
+
+
+def velocity_of(sights: Collection[tuple[float, float, float]]) -> tuple[float, float]:
+    """Meters a second in x and y that fit sights best: seconds, x and y of at least two times."""
+    times, x, y = np.array(sights).T
+    since = times - times.mean()
+    spread = float(since @ since)
+    return float(since @ x) / spread, float(since @ y) / spread

@@ -42,7 +42,8 @@ async def mirror_head(context: TaskContext) -> str | None:
                 if event is None:
                     return "I see nothing more to copy. That was fun!"
                 if event.name == "person.relaxed":
-                    lane.stop()
+                    if lane.runs(verbs.show):  # a nod goes on
+                        lane.stop()
                 elif copy := _copy(event):
                     lane.start(*copy)
                 elif event.name == "speech.heard":
